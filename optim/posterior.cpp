@@ -53,8 +53,7 @@ class Sampler {
         function_([this, &function](std::span<const double> p, std::span<double> r) {
           if (!function(p, r)) return false;
           trials_.push_back({{p.begin(), p.end()}, {r.begin(), r.end()}});
-          for (std::size_t k = 0; k < options_.bands.size(); ++k)
-            r[k] = options_.bands[k].miss(r[k]);
+          take_bands_off(r, options_.bands);
           return true;
         }) {}
 

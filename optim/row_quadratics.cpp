@@ -84,6 +84,10 @@ Ridge ridge(const Eigen::MatrixXd& design, const Eigen::MatrixXd& rows,
 
 }  // namespace
 
+void take_bands_off(std::span<double> answers, const std::vector<RowBand>& bands) {
+  for (std::size_t k = 0; k < bands.size(); ++k) answers[k] = bands[k].miss(answers[k]);
+}
+
 double compressed(double answer) { return kCompressed * std::asinh(answer / kCompressed); }
 
 RowQuadratics::RowQuadratics(const std::vector<Eigen::VectorXd>& points,

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "base/rooms.h"
@@ -16,6 +17,9 @@ struct RowBand {
 
   double miss(double answer) const { return answer - std::clamp(answer, low, high); }
 };
+
+// In place of answers how far they are off their bands, one per row; no bands: of no width.
+void take_bands_off(std::span<double> answers, const std::vector<RowBand>& bands);
 
 // Answers of many standard deviations grow by their logarithm: how far off they are matters little.
 double compressed(double answer);

@@ -115,6 +115,7 @@ class FoundDesign:
 
     point: Point
     searched: Judgement
+    """As the search judged it; without values: it came later (a safer design, the same texture flat)."""
     confirmed: Judgement
     """At the study's accuracy, on skins that the search has not seen."""
     folder: str

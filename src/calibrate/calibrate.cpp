@@ -151,7 +151,7 @@ class Fit {
       const bool ok = timed([&] { return residuals_.answers(calibration_, p, r); });
       Watch::look();
       if (ok) trials_.push_back({{p.begin(), p.end()}, {r.begin(), r.end()}});
-      for (std::size_t i = 0; i < r.size(); ++i) r[i] = bands[i].miss(r[i]);
+      take_bands_off(r, bands);
       if (++evaluations_ % 10 == 0) {
         const int left = std::max(0, an_iteration() * calibration_.iterations - in_round_);
         note(fmt::format("evaluation {}: chi2 {:.4g}; {} at most to the last iteration",

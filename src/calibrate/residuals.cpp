@@ -188,8 +188,7 @@ std::vector<std::string> Residuals::sources() const {
 bool Residuals::residuals(const Calibration& from, std::span<const double> values,
                           std::span<double> r) {
   if (!answers(from, values, r)) return false;
-  const std::vector<RowBand> bands = this->bands();
-  for (std::size_t i = 0; i < bands.size(); ++i) r[i] = bands[i].miss(r[i]);
+  take_bands_off(r, bands());
   return true;
 }
 

@@ -36,8 +36,9 @@ bool keeps_sign(Summary summary, const Metric& metric) {
 
 double moved(double value, double own, double there, bool keeps_sign) {
   if (!std::isfinite(own) || !std::isfinite(there)) return there;  // no field, no film
-  const bool by_factor = keeps_sign && value > 0 && own >= value;
-  return by_factor ? value * (there / own) : value + there - own;
+  constexpr double kMost = 2;
+  const bool in_proportion = keeps_sign && value > 0 && own >= 0;
+  return value + (in_proportion ? std::min(value / own, kMost) : 1) * (there - own);
 }
 
 double BeliefValues::quantile(double p) const { return weighted_quantile(values, weights, p); }

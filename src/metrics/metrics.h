@@ -43,9 +43,8 @@ std::optional<StepSamples> step_samples(
 double step_error(const StepSamples& samples);
 
 // A number as a member of belief has it: `own` and `there` are of the scene as it is and of the
-// member, both on few skins. By their difference; by their factor where the number keeps its sign
-// and `own` is the larger, so that neither a step below zero nor a quotient by next to nothing is
-// left. Both are one where own is the value. Eq. accuracy.15
+// member, both on few skins. A number that keeps its sign is moved in proportion, by no more than
+// twice their difference: a quotient by next to nothing says nothing. Eq. accuracy.15
 double moved(double value, double own, double there, bool keeps_sign);
 // A number over the members of a belief, each moved so from the response's.
 struct BeliefValues {

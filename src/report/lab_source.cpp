@@ -84,7 +84,8 @@ class LabOpener {
                        "version of this program");
     }
     if (const std::string absent = run.value("absent", ""); !absent.empty())
-      throw InputError(path + ": no decision by belief: " + absent);
+      throw InputError(path + ": no decision by belief: " + absent +
+                       "; search again with more time, or with fingers that name one");
     RunWorth worth;
     worth.name = run.value("worth", "");
     for (const auto& [name, design] : run.at("designs").items()) {

@@ -18,6 +18,8 @@ const char* name_of(Topic topic) {
       return "refinement";
     case Topic::Search:
       return "search";
+    case Topic::Lab:
+      return "lab";
     case Topic::Notice:
       return "notice";
   }

@@ -8,7 +8,7 @@ namespace papilla::studio {
 
 // The files of src/studio/page, embedded at build time.
 extern const std::string_view kStudioHtml, kStudioStyle, kStudioModule, kFormModule, kSceneModule,
-    kAnswerModule, kSearchModule, kFilesModule, kServerModule, kTakeModule;
+    kAnswerModule, kSearchModule, kFilesModule, kLabModule, kServerModule, kTakeModule;
 
 namespace {
 
@@ -31,6 +31,7 @@ const std::array kFiles{
     Entry{"/page/answer.js", kScript, &kAnswerModule},
     Entry{"/page/search.js", kScript, &kSearchModule},
     Entry{"/page/files.js", kScript, &kFilesModule},
+    Entry{"/page/lab.js", kScript, &kLabModule},
     Entry{"/page/server.js", kScript, &kServerModule},
     Entry{"/page/take.js", kScript, &kTakeModule},
     Entry{"/plots/look.js", kScript, &kLookModule},

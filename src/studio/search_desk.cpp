@@ -1,17 +1,12 @@
 #include "studio/search_desk.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -21,6 +16,7 @@
 #include "report/json.h"
 #include "search/records.h"
 #include "search/run.h"
+#include "studio/child.h"
 
 namespace papilla::studio {
 namespace {
@@ -32,8 +28,7 @@ constexpr const char* kSearches = "searches";
 constexpr const char* kLog = "log.txt";
 constexpr std::chrono::milliseconds kLook{300};       // between two looks at the journal
 constexpr std::chrono::milliseconds kPatience{1500};  // with a search that is to end
-constexpr const char* kLastWord = "30 s";             // of a search that is stopped
-constexpr int kGivesWay = 19;                         // niceness of a search: the hand comes first
+constexpr const char* kLastWord = "5 min";            // of a search that is stopped
 
 const char* name_of(SearchState state) {
   switch (state) {
@@ -75,34 +70,6 @@ Json progress_of(const Folder& folder, const std::string& file) {
   } catch (const std::exception&) {  // it ended meanwhile
     return nullptr;
   }
-}
-
-// Starts a program that ends with this thread, however that ends. Between fork and exec only what
-// POSIX allows in a process of several threads.
-int started(const std::vector<std::string>& words, const Handle& log) {
-  std::vector<char*> argv;
-  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
-  const pid_t parent = ::getpid();
-  const pid_t child = ::fork();
-  if (child != 0) return child;
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);
-  ::setpgid(0, 0);
-  ::setpriority(PRIO_PROCESS, 0, kGivesWay);
-  const int nothing = ::open("/dev/null", O_RDONLY);
-  ::dup2(nothing, 0);
-  ::dup2(log.get(), 1);
-  ::dup2(log.get(), 2);
-  constexpr int kFirst = 3, kLast = 1024;
-  for (int fd = kFirst; fd < kLast; ++fd) ::close(fd);  // sockets of the pages
-  ::execv(argv[0], argv.data());
-  ::_exit(127);
-}
-
-std::string last_lines(const std::string& text) {
-  constexpr std::size_t kMost = 600;
-  return text.size() > kMost ? text.substr(text.size() - kMost) : text;
 }
 
 // Of the folder of a search, "001"; 0: of something else.
@@ -302,10 +269,8 @@ void SearchDesk::start_child() try {
                                  folder.path()};
   if (again_ && folder.has(kJournalName)) words.push_back("--resume");
   if (to_its_end_) words.insert(words.end(), {"--finish", "--time", kLastWord});
-  const Handle log = folder.open_to_write(kLog);
-  if (::ftruncate(log.get(), 0) != 0)
-    throw InputError(folder.path(kLog) + ": " + std::strerror(errno));
-  child_ = started(words, log);
+  const Handle log = emptied(folder, kLog);
+  child_ = studio::start_child(words, log, log);
 } catch (const InputError& error) {
   state_ = SearchState::Failed;
   trouble_ = error.what();
@@ -324,6 +289,11 @@ void SearchDesk::wait_for_child() {
   if (state_ == SearchState::Failed && trouble_.empty() && folder_.has(in_place(kLog)))
     trouble_ = visible(last_lines(folder_.read(in_place(kLog))));
   changed_.notify_all();
+}
+
+std::string SearchDesk::results() const {
+  const std::lock_guard lock(mutex_);
+  return state_ == SearchState::Finished ? place() : "";
 }
 
 Draft SearchDesk::design_of(std::size_t evaluation) const {

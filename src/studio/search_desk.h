@@ -68,6 +68,8 @@ class SearchDesk {
   Draft design_of(const std::string& front) const;
 
   nlohmann::ordered_json json() const;  // all that the page draws
+  // The folder of the present search below the studio's, "searches/001"; empty: it has no results.
+  std::string results() const;
 
  private:
   struct Found {

@@ -124,13 +124,17 @@ Studio::Studio(const StudioOptions& options)
       lock_(files_.handle().made_below(kStudioFolder), "lock", "another studio is working"),
       session_(files_.folder(), opened_file(options.file)) {
   add_routes();
+  lab_ = std::make_unique<LabDesk>(files_.folder(), options.program,
+                                   [this] { events_.tell(Topic::Lab, lab_json()); });
   desk_ = std::make_unique<SearchDesk>(files_.folder(), options.program, [this] {
     events_.tell(Topic::Search, desk_->json().dump());
+    events_.tell(Topic::Lab, lab_json());
   });
   evaluator_ = std::make_unique<Evaluator>(listener());
   server_ = std::make_unique<HttpServer>(options.port, options.limits, events_,
                                          [this](const HttpRequest& r) { return answer(r); });
   events_.tell(Topic::Search, desk_->json().dump());
+  events_.tell(Topic::Lab, lab_json());
   design_changed();
 }
 
@@ -138,6 +142,7 @@ Studio::Studio(const StudioOptions& options)
 Studio::~Studio() {
   server_->stop();
   evaluator_.reset();
+  lab_.reset();  // it asks the other desk whose lab it is
   desk_.reset();
   try {
     files_.handle().remove(kOpeningFile);
@@ -220,9 +225,14 @@ std::string Studio::session_json() const {
 std::string Studio::state() const {
   static const std::string kinds = kinds_json().dump();
   return fmt::format(
-      R"({{"version":"{}","kinds":{},"files":{},"session":{},"wish":{},"search":{}}})",
+      R"({{"version":"{}","kinds":{},"files":{},"session":{},"wish":{},"search":{},"lab":{}}})",
       PAPILLA_VERSION, kinds, files_.list().dump(), session_json(),
-      proposed_wish(session_.view().study, session_.wish()).dump(), desk_->json().dump());
+      proposed_wish(session_.view().study, session_.wish()).dump(), desk_->json().dump(),
+      lab_json());
+}
+
+std::string Studio::lab_json() const {
+  return lab_->json(desk_->results()).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 void Studio::add_routes() {
@@ -230,6 +240,7 @@ void Studio::add_routes() {
   add_design_routes();
   add_file_routes();
   add_search_routes();
+  add_lab_routes();
 }
 
 void Studio::add_design_routes() {
@@ -356,6 +367,30 @@ void Studio::add_search_routes() {
     return changed(session_.become(
         a.body.contains("front") ? desk_->design_of(a.text("front"))
                                  : desk_->design_of(a.body.at("evaluation").get<std::size_t>())));
+  };
+}
+
+void Studio::add_lab_routes() {
+  routes_["POST /lab/plan"] = [this](const Asked& a) {
+    constexpr int kMostTouches = 1000;  // as the command takes
+    const int touches = a.whole("touches");
+    if (touches < 1 || touches > kMostTouches)
+      throw InputError(fmt::format("expected 1 to {} touches", kMostTouches));
+    lab_->plan(desk_->results(), touches);
+    return lab_json();
+  };
+  routes_["POST /lab/keep"] = [this](const Asked& a) {
+    lab_->keep(desk_->results(), a.request.query, a.request.body);
+    return Json::object().dump();
+  };
+  routes_["POST /lab/tell"] = [this](const Asked& a) {
+    lab_->tell(desk_->results(), a.body.at("files").get<std::vector<std::string>>(),
+               a.flag("replace"));
+    return lab_json();
+  };
+  routes_["POST /lab/stop"] = [this](const Asked&) {
+    lab_->stop();
+    return lab_json();
   };
 }
 

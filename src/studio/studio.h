@@ -13,6 +13,7 @@
 #include "studio/events.h"
 #include "studio/files.h"
 #include "studio/http.h"
+#include "studio/lab_desk.h"
 #include "studio/search_desk.h"
 #include "studio/session.h"
 
@@ -49,12 +50,14 @@ class Studio {
   void add_design_routes();
   void add_file_routes();
   void add_search_routes();
+  void add_lab_routes();
   HttpAnswer report(const std::string& folder) const;
   Listener listener();
   void design_changed();
   std::string changed(std::uint64_t revision);
   std::string state() const;
   std::string session_json() const;
+  std::string lab_json() const;
 
   Events events_;
   Files files_;
@@ -63,6 +66,7 @@ class Studio {
   std::map<std::string, Route> routes_;
   std::mutex computing_;  // what takes seconds, one at a time
   std::unique_ptr<SearchDesk> desk_;
+  std::unique_ptr<LabDesk> lab_;
   std::unique_ptr<Evaluator> evaluator_;
   std::unique_ptr<HttpServer> server_;
 };

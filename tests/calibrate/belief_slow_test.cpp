@@ -83,19 +83,13 @@ TEST_F(FitBeliefSlow, HoldsATruthThatThePatchesWerePlantedWith) {
   // By the rows as they were learnt; what the model's own answers jitter by about these on so few
   // pixels comes on top (Eq. calibration.11).
   for (std::size_t k = 0; k < forces.size(); ++k) {
-    double learnt = 0, learnt_mean = 0, open = 0;
+    double learnt = 0, learnt_mean = 0;
     for (const PosteriorSample& s : b.hypotheses.front().posterior.samples) {
       learnt_mean += s.weight * 0.05 * s.answers[k];
       learnt += s.weight * square(0.05 * s.answers[k]);
-      open += s.weight * square(0.05) * s.open[k];
     }
     learnt = std::sqrt(learnt - square(learnt_mean));
     const double deviation = std::sqrt(squares[k] - mean[k] * mean[k]);
-    fmt::print(
-        "guess missed by {:.2f}, fitted {:.4g} {:.4g}; row {}: learnt ± {:.3f}, open {:.3f}, "
-        "members ± {:.3f}\n",
-        b.hypotheses.front().posterior.guess_error, r.fit.values()[0], r.fit.values()[1], k, learnt,
-        std::sqrt(open), deviation);
     EXPECT_GT(deviation, 0.01) << k;
     EXPECT_LT(learnt, 0.06) << k;
     EXPECT_LT(deviation, 0.13) << k;  // docs/measured/validation.md: too wide, never too narrow

@@ -21,15 +21,15 @@ std::vector<ResponsePoint> points(const std::vector<double>& modulations) {
   return out;
 }
 
-// The runs are twice what the response has, as coarse ones may be.
+// The runs are half of what the response has, as coarse ones may be.
 Response with_members() {
   Response r;
   r.driven = true;
   r.points = points({0.8, 1.2});
-  r.belief.own.points = points({1.6, 2.4});
-  r.belief.members = {{0.5, "a", {points({1.6, 2.4}), {}}},
-                      {0.25, "a", {points({0.8, 1.2}), {}}},
-                      {0.25, "b", {points({3.2, 4.8}), {}}}};
+  r.belief.own.points = points({0.4, 0.6});
+  r.belief.members = {{0.5, "a", {points({0.4, 0.6}), {}}},
+                      {0.25, "a", {points({0.2, 0.3}), {}}},
+                      {0.25, "b", {points({0.8, 1.2}), {}}}};
   return r;
 }
 
@@ -52,26 +52,28 @@ TEST(BeliefValues, AreTheResponsesMovedAsMembersMoveTheRuns) {
   EXPECT_FALSE(summarise(Summary::Mean, kModulation, none)->parts.model);
 }
 
-// By the factor of the larger reading, by the difference from the smaller one: no quotient by next
-// to nothing and nothing below zero, and where both readings agree the member's own number.
-TEST(BeliefValues, ANumberIsMovedByTheLesserStep) {
+// In proportion, by no more than twice the difference: no quotient by next to nothing, nothing
+// below zero, no jump, and where both readings agree the member's own number.
+TEST(BeliefValues, ANumberIsMovedInProportionWithinTwiceTheDifference) {
   EXPECT_NEAR(moved(1, 2, 3, true), 1.5, 1e-12);
-  EXPECT_NEAR(moved(1, 0.5, 0.75, true), 1.25, 1e-12);
-  EXPECT_NEAR(moved(0.01, 1e-5, 0.02, true), 0.03 - 1e-5, 1e-12);
+  EXPECT_NEAR(moved(1, 0.5, 0.75, true), 1.5, 1e-12);
+  EXPECT_NEAR(moved(0.01, 1e-5, 0.02, true), 0.01 + 2 * (0.02 - 1e-5), 1e-12);
+  EXPECT_NEAR(moved(0.01, 0, 0.02, true), 0.05, 1e-12);
   EXPECT_NEAR(moved(0.01, 1, 0.02, true), 2e-4, 1e-12);
-  for (const double to : {0.1, 0.7, 4.0}) {
-    EXPECT_NEAR(moved(1, 1 + 1e-9, to, true), to, 1e-8);
-    EXPECT_NEAR(moved(1, 1 - 1e-9, to, true), to, 1e-8);
+  for (const double to : {0.0, 0.1, 0.7, 4.0}) {
+    EXPECT_NEAR(moved(1, 1, to, true), to, 1e-12);
+    EXPECT_NEAR(moved(1, 0.5 + 1e-9, to, true), moved(1, 0.5 - 1e-9, to, true), 1e-7);
+    EXPECT_GE(moved(1, 0.3, to, true), 0);
     EXPECT_NEAR(moved(1, 2, to, false), to - 1, 1e-12);
   }
 }
 
-// The force may push: half of it says nothing of twice. Its runs are 1.1 where the value is 0.3.
+// The force may push: half of it says nothing of twice. Runs of -.1 and .1 about a value of .5.
 TEST(BeliefValues, OfANumberThatChangesItsSignAreMovedByDifferences) {
   const Response r = with_members();
   const auto v = *belief_values_at(0, QuantityMetric{&PointQuantities::capillary_force}, r);
-  EXPECT_NEAR(v.values[1], 0.3 + (0.3 - 1.1), 1e-12);
-  EXPECT_NEAR(v.values[2], 0.3 + (2.7 - 1.1), 1e-12);
+  EXPECT_NEAR(v.values[1], 0.3 + (-0.3 - -0.1), 1e-12);
+  EXPECT_NEAR(v.values[2], 0.3 + (0.3 - -0.1), 1e-12);
   // So are spreads: here no member moves the variation.
   EXPECT_NEAR(belief_values(Summary::Variation, kModulation, r)->deviation(), 0, 1e-12);
 }
@@ -91,11 +93,15 @@ TEST(BeliefValues, ADifferenceHasItsOwnDeviationAndProbability) {
   const Response one = with_members();
   Response two = one;
   two.points = points({1.6, 2.4});
+  two.belief.own.points = points({0.8, 1.2});
+  two.belief.members[0].run.points = points({0.8, 1.2});
+  two.belief.members[1].run.points = points({0.4, 0.6});
+  two.belief.members[2].run.points = points({1.6, 2.4});
   const auto a = *belief_values(Summary::Mean, kModulation, one),
              b = *belief_values(Summary::Mean, kModulation, two);
   EXPECT_NEAR(belief_difference(b, a)->deviation, a.deviation(), 1e-12);
   EXPECT_EQ(belief_difference(b, a)->above, 1);
-  two.belief.members[2].run.points = points({0.4, 0.8});
+  two.belief.members[2].run.points = points({0.2, 0.4});
   const auto turned = *belief_values(Summary::Mean, kModulation, two);
   EXPECT_NEAR(belief_difference(turned, a)->above, 0.75, 1e-12);
   Response other = two;

@@ -55,13 +55,13 @@ TaskAnswer at(double depth, double angle, double worst) {
 }
 
 // A deep texture has the highest worst modulation; under the third member the flat surface. On the
-// few skins of the members all modulations are twice the confirmed ones.
+// few skins of the members all modulations are half of the confirmed ones.
 TaskAnswer overturning(const TaskRequest& r) {
   const double depth = r.flat ? 0 : r.unit[0], angle = r.unit[1];
   if (r.stage != Stage::Belief) return at(depth, angle, 0.2 + 0.1 * depth);
   TaskAnswer out;
-  out.members = {at(depth, angle, 0.4 + 0.2 * depth), at(depth, angle, 0.4 + 0.2 * depth),
-                 at(depth, angle, 0.4 - 0.2 * depth), at(depth, angle, 0.4 + 0.2 * depth)};
+  out.members = {at(depth, angle, 0.1 + 0.05 * depth), at(depth, angle, 0.1 + 0.05 * depth),
+                 at(depth, angle, 0.1 - 0.05 * depth), at(depth, angle, 0.1 + 0.05 * depth)};
   return out;
 }
 
@@ -99,9 +99,9 @@ TEST(Decision, IsTheLeastExpectedRegretAndNamesWhatOverturnsIt) {
   EXPECT_NEAR(d.hypotheses[1].weight, 0.3, 1e-12);
   for (std::size_t i = 0; i < d.designs.size(); ++i)
     EXPECT_GE(depth(i), depth(d.hypotheses[1].best));
-  // The confirmed .2 + .1 depth times (.4 - .2 depth)/(.4 + .2 depth).
+  // The confirmed .2 + .1 depth times (.1 - .05 depth)/(.1 + .05 depth).
   const double most = depth(d.best), least = depth(d.hypotheses[1].best);
-  const auto there = [](double x) { return (0.2 + 0.1 * x) * (0.4 - 0.2 * x) / (0.4 + 0.2 * x); };
+  const auto there = [](double x) { return (0.2 + 0.1 * x) * (0.1 - 0.05 * x) / (0.1 + 0.05 * x); };
   EXPECT_NEAR(d.designs[d.best].regret, 0.3 * (there(least) - there(most)), 1e-12);
   EXPECT_NEAR(d.hypotheses[1].loss, there(least) - there(most), 1e-12);
   const std::string said = report::as_read(report::decision_sentence(a.files()));
@@ -263,8 +263,8 @@ TEST(Decision, ARunThatIsContinuedWithAnotherRiskAsksNoMemberAgain) {
 TEST(Decision, AMemberMovesSizesByAFactorAndSpreadsByADifference) {
   const Study study = believing(0.3);
   const StudyProblem problem(study);
-  const TaskAnswer confirmed = at(0, 0, 0.4), own = at(0, 0, 0.8);
-  TaskAnswer there = at(0, 0, 1.2);
+  const TaskAnswer confirmed = at(0, 0, 0.4), own = at(0, 0, 0.2);
+  TaskAnswer there = at(0, 0, 0.3);
   there.objectives[0].value *= 1.5;
   for (double& p : there.objectives[0].points) p *= 1.5;
   there.objectives[1].value += 0.07;

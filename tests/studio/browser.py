@@ -1,9 +1,10 @@
 """The studio in headless Chromium: browser.py PROGRAM PART [PICTURE_FOLDER]. Exit 0: all as it should be.
 
 Parts: smoke (page, sliders, undo, pin, widths, dark, console), pages (two pages one state, reconnect, foreign
-origin), hour (open, change, pin, search, steer, pick, scan, export, verify, save, reopen), keys (the same hour by keys alone),
+origin), hour (open, change, pin, search, steer, plan and tell measurements, pick, scan, export, verify, save, reopen), keys (the same hour by keys alone),
 thousand (events of a slider without a pause).
 """
+import csv
 import json
 import os
 import re
@@ -280,6 +281,33 @@ def by_numbers(browser):
     check(counts[5] == counts[0], f"Escape leaves a range: {counts}")
 
 
+def measured(browser, results):
+    """Two touches are planned for the finalists, and told as the plan expects them."""
+    browser.run("document.getElementById('labtouches').value = 2; document.getElementById('labplan').click()")
+    until(browser, "(document.querySelectorAll('#labbatch tbody tr').length > 0 || !document.getElementById('labnotice').hidden) && !document.getElementById('labplan').disabled", 600, "a plan")
+    trouble = "return document.getElementById('labnotice').textContent"
+    check(not browser.run(trouble), browser.run(trouble))
+    with open(os.path.join(results, "lab", "plan_01.csv"), newline="") as file:
+        lines = file.read().split("\n")
+    check(any("F_off_N" in line for line in lines), f"the plan as a table: {lines[:4]}")
+    rows = list(csv.reader(line for line in lines if line and not line.startswith("#")))
+    planned = browser.run("return [...document.querySelectorAll('#labbatch tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
+    expects = {row[0].split(" ")[0]: [re.match(r"[\d.]+", cell)[0] for cell in row[8:10] if cell] for row in planned}
+    head, told = rows[0], os.path.join(results, "filled.csv")
+    for row in rows[1:]:
+        for column, value in zip(("F_off_N", "F_on_N"), expects[row[0]]):
+            row[head.index(column)] = str(float(value) / 1000)
+    with open(told, "w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows(rows)
+    element = browser.call("POST", "/element", {"using": "css selector", "value": "#labfiles"})
+    browser.call("POST", f"/element/{list(element.values())[0]}/value", {"text": told})
+    until(browser, "/ readings of 1 files told/.test(document.getElementById('labstanding').textContent) || !document.getElementById('labnotice').hidden", 300, "what was told")
+    check(not browser.run(trouble), browser.run(trouble))
+    check(browser.run("return [...document.querySelectorAll('#labbatch tbody tr')].every(r => r.cells[7].textContent === r.cells[6].textContent)"), "touches that were told")
+    browser.run("document.getElementById('labhead').scrollIntoView()")
+    browser.picture(PICTURES, "hour_4_lab.png")
+
+
 def hour(browser, folder):
     shutil.copy(os.path.join(TREE, "designs", "measured_surface", "scan.gsf"), folder)
     studio = Studio(folder, two_humidities(folder))
@@ -314,6 +342,7 @@ def hour(browser, folder):
         until(browser, "papilla.charts.pareto.data.datasets[0].label === 'front, confirmed'", 10, "a confirmed front")
         check(browser.run("return document.getElementById('report').textContent") == "Report", "a finished search has no report")
         browser.picture(PICTURES, "hour_4_front.png")
+        measured(browser, os.path.join(folder, "searches", "002"))
         browser.run("document.querySelector('#frontlist button').click()")
         until(browser, "document.documentElement.dataset.idle === 'yes'", 180, "the picked design")
         # A measured map.

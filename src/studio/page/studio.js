@@ -5,6 +5,7 @@ import { drawn, latency, showForm, showKinds, startFilter } from './form.js';
 import { showAnswer, showSessionPins } from './answer.js';
 import { exportDialog, historyDialog, openDialog, saveDialog, saving, startFiles, state } from './files.js';
 import { showDimensions, showLook, showShape, startScene } from './scene.js';
+import { showLab, startLab } from './lab.js';
 import { showSearch, showWish, startSearch } from './search.js';
 import { ask, listen, notice, post } from './server.js';
 import { takeable } from './take.js';
@@ -63,16 +64,18 @@ function refinement({ revision, what }) {
 async function begin() {
   startScene();
   startSearch();
+  startLab();
   startFiles();
   startFilter();
   toolbar();
-  [['modulation', 'modulation'], ['friction', 'friction'], ['section', 'section'], ['pareto', 'designs']].forEach(([id, name]) => takeable(id, name));
+  [['modulation', 'modulation'], ['friction', 'friction'], ['section', 'section'], ['pareto', 'designs'], ['decisions', 'decisions']].forEach(([id, name]) => takeable(id, name));
   const all = await state();
   $('version').textContent = all.version;
   showKinds(all.kinds);
   showSession(all.session);
   showWish(all.wish);
   showSearch(all.search);
+  showLab(all.lab);
   listen({
     session: showSession,
     shape: showShape,
@@ -80,6 +83,7 @@ async function begin() {
     look: showLook,
     refinement,
     search: showSearch,
+    lab: showLab,
     notice: (n) => notice(n.error),
   }, (on) => {
     document.documentElement.dataset.connected = on;

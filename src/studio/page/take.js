@@ -1,7 +1,7 @@
 // What is on a chart, to take along: its numbers as CSV, its picture as PNG.
 import { charts } from '../plots/charts.js';
 
-function give(name, content, type) {
+export function give(name, content, type) {
   const link = document.createElement('a');
   link.download = name;
   link.href = typeof content === 'string' && content.startsWith('data:') ? content : URL.createObjectURL(new Blob([content], { type }));

@@ -1,0 +1,55 @@
+#include "studio/child.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "base/error.h"
+
+namespace papilla::studio {
+namespace {
+
+constexpr int kGivesWay = 19;  // niceness: the hand comes first
+
+}  // namespace
+
+// Between fork and exec only what POSIX allows in a process of several threads.
+int start_child(const std::vector<std::string>& words, const Handle& said, const Handle& noted) {
+  std::vector<char*> argv;
+  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);
+  ::setpgid(0, 0);
+  ::setpriority(PRIO_PROCESS, 0, kGivesWay);
+  const int nothing = ::open("/dev/null", O_RDONLY);
+  ::dup2(nothing, 0);
+  ::dup2(said.get(), 1);
+  ::dup2(noted.get(), 2);
+  constexpr int kFirst = 3, kLast = 1024;
+  for (int fd = kFirst; fd < kLast; ++fd) ::close(fd);  // sockets of the pages
+  ::execv(argv[0], argv.data());
+  ::_exit(127);
+}
+
+Handle emptied(const Folder& folder, std::string_view name) {
+  Handle out = folder.open_to_write(name);
+  if (::ftruncate(out.get(), 0) != 0)
+    throw InputError(folder.path(name) + ": " + std::strerror(errno));
+  return out;
+}
+
+std::string last_lines(const std::string& text) {
+  constexpr std::size_t kMost = 600;
+  return text.size() > kMost ? text.substr(text.size() - kMost) : text;
+}
+
+}  // namespace papilla::studio

@@ -1,0 +1,88 @@
+// The lab of the search: which measurements settle what to build, and what those that were made changed.
+import { $ } from '../plots/look.js';
+import { axis, draw } from '../plots/charts.js';
+import { round } from '../plots/numbers.js';
+import { table } from '../plots/tables.js';
+import { post, upload } from './server.js';
+import { give } from './take.js';
+
+let plan = null;  // the newest, as a table: its name and text
+
+function said(text) {
+  $('labnotice').textContent = text || '';
+  $('labnotice').hidden = !text;
+}
+async function work(ask) {
+  try {
+    const lab = await ask();
+    if (lab.folder !== undefined) showLab(lab);
+  } catch (error) {
+    said(error.message);
+  }
+}
+export function startLab() {
+  $('labplan').addEventListener('click', () => work(() => post('lab/plan', { touches: Math.round(+$('labtouches').value) || 0 })));
+  $('labstop').addEventListener('click', () => work(() => post('lab/stop')));
+  $('labtable').addEventListener('click', () => plan && give(plan.name, plan.text, 'text/csv'));
+  $('labfiles').addEventListener('change', () => work(async () => {
+    const files = [...$('labfiles').files];
+    for (const file of files) await upload('lab/keep', file.name, await file.arrayBuffer());
+    $('labfiles').value = '';  // the same file again is a choice too
+    return post('lab/tell', { files: files.map((f) => f.name), replace: $('labreplace').checked });
+  }));
+}
+
+const percent = (p) => `${round(100 * p, 2)} %`, milli = (force) => round(1000 * force, 3);
+// Of a planned force: median and 95 % interval by belief.
+const expected = (f) => f.length > 2 ? `${milli(f[0])} (${milli(f[1])} to ${milli(f[2])})` : '';
+
+function standing(lab) {
+  const s = lab.standing, best = s.designs.find((d) => d.name === s.best);
+  const now = best ? `${s.best} is the best with ${percent(best.p_best)}, regret ${round(best.regret, 2)}` : 'Nothing is to be decided';
+  const last = lab.decisions.slice(-2), moved = last.length > 1 && last[0].best !== last[1].best ? `; before ${last[0].best} with ${percent(last[0].p_best)}` : last.length > 1 ? ` (before ${percent(last[0].p_best)})` : '';
+  const found = s.discrepancies.length ? ` No member explains: ${s.discrepancies.map((d) => `${d.where} is ${d.shift > 0 ? '+' : ''}${round(100 * d.shift, 2)} % off`).join(', ')}.` : '';
+  const stop = lab.plans.length && lab.plans[lab.plans.length - 1].stop ? ' What is left to gain is below what was said to be worth it: stop.' : '';
+  return `${now}${moved}; ${s.readings} readings of ${lab.told.length} files told.${found}${s.refit ? ' The belief is worth few members by now: fit again with readings.csv.' : ''}${stop}`;
+}
+function showPlan(lab) {
+  const newest = lab.plans[lab.plans.length - 1], done = {};
+  lab.told.forEach((t) => t.readings.forEach((r) => { done[r.experiment] = (done[r.experiment] || 0) + 1; }));
+  $('labbatch').parentElement.hidden = !newest || !newest.experiments.length;
+  if ($('labbatch').parentElement.hidden) return;
+  table($('labbatch'), ['', 'design', 'humidity', 'load', 'voltage', 'finger', 'touches', 'told', 'F off expected [mN]', 'F on expected [mN]'], newest.experiments.map((e) => {
+    const c = e.conditions;
+    return [e.id + (e.field ? ` ${e.field}` : ''), e.design, `${round(100 * c.relative_humidity, 3)} %`, `${round(c.load, 3)} N`, `${round(c.voltage, 3)} V`, c.state, e.repeats, done[e.id] || 0, expected(e.F_off), expected(e.F_on)];
+  }), [2, 3, 4, 6, 7, 8, 9]);
+}
+function showDecisions(lab) {
+  const all = lab.decisions, names = lab.standing.designs.map((d) => d.name);
+  $('decisionsbox').hidden = all.length < 2;
+  if ($('decisionsbox').hidden) return;
+  draw('decisions', {
+    type: 'line',
+    data: { datasets: names.map((name, k) => ({ label: name, data: all.map((d) => ({ x: d.readings, y: 100 * d.p_designs[k] })), borderWidth: 2, pointRadius: 3 })) },
+    options: { scales: { x: axis('readings told', { type: 'linear' }), y: axis('probability of being best [%]', { min: 0, max: 100 }) } },
+  });
+}
+
+export function showLab(now) {
+  const busy = Boolean(now.doing), lab = now.lab;
+  $('lab').hidden = !now.folder;
+  $('labstate').textContent = { plan: 'planning', tell: 'weighing what was told' }[now.doing] || '';
+  $('labstate').classList.toggle('live', busy);
+  ['labplan', 'labfiles', 'labtouches'].forEach((id) => { $(id).disabled = busy; });
+  $('labfiles').disabled = busy || !lab;
+  $('labstop').disabled = !busy;
+  plan = now.table && now.table.text ? now.table : null;
+  $('labtable').disabled = !plan;
+  said(busy ? '' : now.trouble);
+  $('labstanding').textContent = busy ? now.noted || '' : lab ? standing(lab) : 'What keeps this recommendation from being sure is what nobody has measured. A plan says which few touches settle it; tables and records of a tribometer are told back.';
+  $('labsaid').textContent = now.said || '';
+  $('labwords').hidden = !now.said;
+  if (lab) {
+    showPlan(lab);
+    showDecisions(lab);
+  } else {
+    $('labbatch').parentElement.hidden = $('decisionsbox').hidden = true;
+  }
+}
