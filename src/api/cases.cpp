@@ -27,7 +27,7 @@ std::vector<PerssonPoint> points_of(const std::vector<MeanFieldPoint>& points) {
 Document document_of(const CaseInput& input) {
   const std::vector<std::string> changes = overrides(input.values);
   return input.file.empty() ? parse_document(input.toml, "case.toml", changes, design_roots())
-                            : load_document(shipped(input.file), changes, design_roots());
+                            : load_document(own_or_shipped(input.file), changes, design_roots());
 }
 
 }  // namespace

@@ -44,13 +44,6 @@ Look look_of(const Optics& o) {
           .warning = o.warning};
 }
 
-std::string shipped(const std::string& file) {
-  std::error_code ignored;
-  if (file.empty() || std::filesystem::exists(file, ignored)) return file;
-  const std::string found = find_beside(file, "", design_roots());
-  return found.empty() ? file : found;
-}
-
 Heights heights_of(const Heightmap& map) {
   return {map.grid.nx, map.grid.ny, map.grid.dx(), map.grid.dy(), map.z};
 }
@@ -65,7 +58,7 @@ Heightmap heightmap_of(const Heights& h) {
 }
 
 Design Design::read(const std::string& file, const Values& values) {
-  return Design(loaded({shipped(file), "", values, nullptr, {}}));
+  return Design(loaded({own_or_shipped(file), "", values, nullptr, {}}));
 }
 
 Design Design::parse(const std::string& toml, const Values& values) {

@@ -36,9 +36,6 @@ std::vector<std::string> overrides(const Design::Values& values);  // as files a
 // The design at the level of the options, checked as evaluate() does. Throws rooms::InputError.
 rooms::Design at_options(const Design& design, const EvaluateOptions& options);
 
-// The file, or the one of that name in the designs folders where there is none.
-std::string shipped(const std::string& file);
-
 Look look_of(const Optics& optics);
 Heights heights_of(const Heightmap& map);
 Heightmap heightmap_of(const Heights& heights);  // throws rooms::InputError

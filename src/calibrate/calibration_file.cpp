@@ -373,8 +373,9 @@ class CalibrationReader {
 }  // namespace
 
 Calibration read_calibration(const std::string& path, const std::vector<std::string>& judged) {
-  Document document = load_document(path, {}, design_roots());
-  return CalibrationReader(document, path, judged).read();
+  const std::string file = own_or_shipped(path);
+  Document document = load_document(file, {}, design_roots());
+  return CalibrationReader(document, file, judged).read();
 }
 
 void fields(FieldVisitor& v, BeliefSettings& s) {

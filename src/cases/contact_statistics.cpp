@@ -186,7 +186,7 @@ void fields(FieldVisitor& v, StatisticsCase& s) {
 }
 
 StatisticsCase read_statistics(const std::string& path, const std::vector<std::string>& overrides) {
-  return read_statistics(load_document(path, overrides, design_roots()));
+  return read_statistics(load_document(own_or_shipped(path), overrides, design_roots()));
 }
 
 StatisticsCase read_statistics(Document document) {

@@ -265,7 +265,7 @@ void fields(FieldVisitor& v, DriveCase& s) {
 }
 
 DriveCase read_drive_case(const std::string& path, const std::vector<std::string>& overrides) {
-  return read_drive_case(load_document(path, overrides, design_roots()));
+  return read_drive_case(load_document(own_or_shipped(path), overrides, design_roots()));
 }
 
 DriveCase read_drive_case(Document document) {

@@ -139,7 +139,7 @@ void fields(FieldVisitor& v, MeanFieldCase& s) {
 }
 
 MeanFieldCase read_mean_field(const std::string& path, const std::vector<std::string>& overrides) {
-  return read_mean_field(load_document(path, overrides, design_roots()));
+  return read_mean_field(load_document(own_or_shipped(path), overrides, design_roots()));
 }
 
 MeanFieldCase read_mean_field(Document document) {

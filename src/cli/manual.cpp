@@ -68,8 +68,9 @@ std::string ends() {
   return ".SH EXIT STATUS\n0: success; 1: the work failed; 2: wrong input; 128 + N: ended by "
          "signal "
          "N, 130 for Ctrl\\-C.\n"
-         ".SH ENVIRONMENT\n.TP\n.B PAPILLA_DESIGNS\nThe folder where bases are looked "
-         "for.\n.TP\n.B "
+         ".SH ENVIRONMENT\n.TP\n.B PAPILLA_DESIGNS\nThe folder where bases are looked for, and "
+         "files that "
+         "are not in the working folder.\n.TP\n.B "
          "NO_COLOR\nNo colours on a terminal.\n";
 }
 

@@ -317,8 +317,15 @@ std::string find_design(const std::string& name) {
   throw InputError(name + " is in no designs folder; set PAPILLA_DESIGNS to the one that has it");
 }
 
+std::string own_or_shipped(const std::string& file) {
+  std::error_code ignored;
+  if (file.empty() || fs::exists(file, ignored)) return file;
+  const std::string found = find_beside(file, "", design_roots());
+  return found.empty() ? file : found;
+}
+
 Finger read_finger(const std::string& path) {
-  Document document = load_document(path, {}, design_roots());
+  Document document = load_document(own_or_shipped(path), {}, design_roots());
   document.take("schema_version");
   Finger finger;
   read_section(document, "", finger);

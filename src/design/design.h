@@ -73,6 +73,10 @@ std::vector<std::string> design_roots();
 // The file below the first of those folders that has it; throws InputError.
 std::string find_design(const std::string& name);
 
+// The file, or the one of that name in those folders where there is none: designs, studies and
+// cases are named so in every door.
+std::string own_or_shipped(const std::string& file);
+
 // Throws InputError with every mistake. A study file is a design too.
 Design read_design(const std::string& path, const std::vector<std::string>& overrides = {});
 Finger read_finger(const std::string& path);

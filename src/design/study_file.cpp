@@ -164,7 +164,8 @@ Study study_of(Document document, const std::string& path) {
 }  // namespace
 
 Study read_study(const std::string& path, const std::vector<std::string>& overrides) {
-  return study_of(load_document(path, overrides, design_roots()), path);
+  const std::string file = own_or_shipped(path);
+  return study_of(load_document(file, overrides, design_roots()), file);
 }
 
 Study parse_study(const std::string& text, const std::string& name,

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -20,6 +21,21 @@ namespace {
 
 const std::string kHoles = PAPILLA_SOURCE_DIR "/designs/m3_samples/a3h600.toml";
 using nlohmann::json;
+
+// --- names ---
+
+// Of a folder that has no such file the shipped one, in every command; the user's own comes first.
+TEST(ShippedNames, AreFoundFromAnyFolder) {
+  const Workplace place;
+  const std::string draft = "--set 'accuracy.level=\"draft\"' --set accuracy.grid=32 --no-model";
+  EXPECT_EQ(place.run("explain m3_samples/flat.toml").status, 0);
+  const Outcome shipped = place.run("evaluate m3_samples/flat.toml --json " + draft);
+  ASSERT_EQ(shipped.status, 0) << shipped.err;
+  EXPECT_EQ(place.run("explain nowhere/flat.toml").status, 2);
+  std::filesystem::create_directories(place.path() / "m3_samples");
+  std::ofstream(place.path() / "m3_samples/flat.toml") << "schema_version = 2\n";
+  EXPECT_EQ(place.run("explain m3_samples/flat.toml").status, 2);
+}
 
 // --- verify ---
 

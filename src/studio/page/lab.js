@@ -1,5 +1,5 @@
 // The lab of the search: which measurements settle what to build, and what those that were made changed.
-import { $ } from '../plots/look.js';
+import { $, colours } from '../plots/look.js';
 import { axis, draw } from '../plots/charts.js';
 import { round } from '../plots/numbers.js';
 import { table } from '../plots/tables.js';
@@ -37,12 +37,13 @@ const percent = (p) => `${round(100 * p, 2)} %`, milli = (force) => round(1000 *
 const expected = (f) => f.length > 2 ? `${milli(f[0])} (${milli(f[1])} to ${milli(f[2])})` : '';
 
 function standing(lab) {
-  const s = lab.standing, best = s.designs.find((d) => d.name === s.best);
-  const now = best ? `${s.best} is the best with ${percent(best.p_best)}, regret ${round(best.regret, 2)}` : 'Nothing is to be decided';
-  const last = lab.decisions.slice(-2), moved = last.length > 1 && last[0].best !== last[1].best ? `; before ${last[0].best} with ${percent(last[0].p_best)}` : last.length > 1 ? ` (before ${percent(last[0].p_best)})` : '';
-  const found = s.discrepancies.length ? ` No member explains: ${s.discrepancies.map((d) => `${d.where} is ${d.shift > 0 ? '+' : ''}${round(100 * d.shift, 2)} % off`).join(', ')}.` : '';
+  const s = lab.standing, best = s.designs.find((d) => d.name === s.best), [was, is] = lab.decisions.slice(-2);
+  const before = !is ? '' : was.best === is.best ? ` (before ${percent(was.p_best)})` : ` (before ${was.best} with ${percent(was.p_best)})`;
+  const now = best ? `${s.best} is the best with ${percent(best.p_best)}${before}, expected regret ${round(best.regret, 2)}` : 'Nothing is to be decided';
+  // Where members explain the readings, places of a discrepancy are no news.
+  const found = s.explained !== null && s.explained < 0.5 && s.discrepancies.length ? ` No member explains the readings: ${s.discrepancies.map((d) => `${d.where} is ${d.shift > 0 ? '+' : ''}${round(100 * d.shift, 2)} % off`).join(', ')}.` : '';
   const stop = lab.plans.length && lab.plans[lab.plans.length - 1].stop ? ' What is left to gain is below what was said to be worth it: stop.' : '';
-  return `${now}${moved}; ${s.readings} readings of ${lab.told.length} files told.${found}${s.refit ? ' The belief is worth few members by now: fit again with readings.csv.' : ''}${stop}`;
+  return `${now}; ${s.readings} readings of ${lab.told.length} files told.${found}${s.refit ? ' The belief is worth few members by now: fit again with readings.csv.' : ''}${stop}`;
 }
 function showPlan(lab) {
   const newest = lab.plans[lab.plans.length - 1], done = {};
@@ -60,7 +61,7 @@ function showDecisions(lab) {
   if ($('decisionsbox').hidden) return;
   draw('decisions', {
     type: 'line',
-    data: { datasets: names.map((name, k) => ({ label: name, data: all.map((d) => ({ x: d.readings, y: 100 * d.p_designs[k] })), borderWidth: 2, pointRadius: 3 })) },
+    data: { datasets: names.map((name, k) => ({ label: name, data: all.map((d) => ({ x: d.readings, y: 100 * d.p_designs[k] })), borderColor: colours[k % colours.length], backgroundColor: colours[k % colours.length], borderWidth: 2, pointRadius: 3 })) },
     options: { scales: { x: axis('readings told', { type: 'linear' }), y: axis('probability of being best [%]', { min: 0, max: 100 }) } },
   });
 }
