@@ -375,9 +375,10 @@ Ranking ranking_of(const std::vector<Regions>& candidates, const RankOptions& op
   if (options.parameters) plan_steps(candidates, out);
   const Pin* pin = candidates.front().front().counterface.in_place();
   if (pin && options.states.size() > 1)
-    throw InputError(fmt::format("\"{}\" stands in place of the finger and has no states: give one "
-                                 "--state at most",
-                                 pin->name));
+    throw InputError(
+        fmt::format("\"{}\" stands in place of the finger and has no states: give one "
+                    "--state at most",
+                    pin->name));
   for (FingerState state : options.states) {
     out.states.push_back(StateRanker(candidates, state, options).run());
     out.states.back().touching =

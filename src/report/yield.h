@@ -12,8 +12,8 @@ namespace papilla::report {
 // "± 20 nm", "sigma 5 nm": a tolerance as a study states it.
 std::string tolerance_text(const Study& study, std::size_t scatter, double share = 1);
 
-// For the recommendation: the share of plates that keep every limit; empty where nothing scatters or
-// the build was not judged.
+// For the recommendation: the share of plates that keep every limit; empty where nothing scatters
+// or the build was not judged.
 std::string yield_sentence(const ResultFiles& files);
 // That share, which limit most break and which tolerance costs most; as empty.
 std::string yield_text(const ResultFiles& files);

@@ -12,7 +12,7 @@ namespace {
 
 // A task's confirmed answer at a member.
 TaskAnswer moved_answer(const StudyGoals& goals, const TaskAnswer& confirmed, const TaskAnswer& own,
-                 const TaskAnswer& there) {
+                        const TaskAnswer& there) {
   if (!own.status.ok()) return own;
   if (!there.status.ok()) return there;
   TaskAnswer out = confirmed;
@@ -30,8 +30,8 @@ TaskAnswer moved_answer(const StudyGoals& goals, const TaskAnswer& confirmed, co
   }
   for (std::size_t j = 0; j < goals.limited.size(); ++j) {
     const MetricExpression& e = goals.limited[j].expression;
-    out.limited[j] = moved(out.limited[j], own.limited[j], there.limited[j],
-                           keeps_sign(e.summary, e.metric));
+    out.limited[j] =
+        moved(out.limited[j], own.limited[j], there.limited[j], keeps_sign(e.summary, e.metric));
   }
   out.worst = moved(out.worst, own.worst, there.worst, true);
   out.oxide_margin = moved(out.oxide_margin, own.oxide_margin, there.oxide_margin, true);

@@ -36,9 +36,8 @@ struct Decision {
 };
 
 // What a design has at a member of belief: its confirmed numbers moved as the member moves them on
-// few skins,
-// confirmed: its answers, a task each; members: [task][member], last the finger as it is. Not ok
-// where a task has no answer there. Eq. accuracy.15
+// few skins. confirmed: its answers, a task each; members: [task][member], last the finger as it
+// is. Not ok where a task has no answer there. Eq. accuracy.15
 Score score_at(const StudyProblem& problem, const Design& design,
                const std::vector<TaskAnswer>& confirmed,
                const std::vector<std::vector<TaskAnswer>>& members, std::size_t member);

@@ -47,14 +47,13 @@ class Told {
       StepSamples steps;
       for (std::size_t c = 0; c < weights.size(); ++c) {
         double typical = 0;
-        const bool signed_force = options_.criteria[c].text().find("capillary") != std::string::npos;
+        const bool signed_force =
+            options_.criteria[c].text().find("capillary") != std::string::npos;
         for (const Candidate& of : candidates_) {
           double mean = 0;
           for (const double v : of.samples(c)) mean += v / static_cast<double>(of.skins());
-          const double open =
-              signed_force && options_.parameters ? step_error(of.steps(c)) : 0.0;
-          typical += std::sqrt(mean * mean + open * open) /
-                     static_cast<double>(candidates_.size());
+          const double open = signed_force && options_.parameters ? step_error(of.steps(c)) : 0.0;
+          typical += std::sqrt(mean * mean + open * open) / static_cast<double>(candidates_.size());
         }
         if (typical == 0) typical = 1;
         const double unit = weights[c] / sum / typical * (options_.criteria[c].high ? 1 : -1);
