@@ -626,16 +626,16 @@ std::string recommendation(const ResultFiles& f) {
         return fmt::format(
             "Leave it flat: no texture of this search adds more than the error of the difference. "
             "What the finish does ({}) is not known: the study's own surface was not computed in "
-            "the time.{}",
-            finish_text(f), rounding_text(f));
+            "the time.{}{}",
+            finish_text(f), rounding_text(f), unstable_recommended(f));
       }
       return fmt::format(
           "Leave it flat and change the finish ({}): that gains {}; no texture of this search adds "
-          "more than the error of the difference.{}",
+          "more than the error of the difference.{}{}",
           finish_text(f),
           changes(f, "the finish of the best less that of the study",
                   r.flat ? *r.flat : best_of(f).confirmed, *r.flat_before, true),
-          rounding_text(f));
+          rounding_text(f), unstable_recommended(f));
     case Advice::Texture:
       break;
   }
