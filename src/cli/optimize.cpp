@@ -17,9 +17,9 @@
 #include "cli/scan_options.h"
 #include "optim/mpi.h"
 #include "optim/search.h"
+#include "report/limits.h"
 #include "report/remarks.h"
 #include "report/results.h"
-#include "report/sheet.h"
 #include "report/summary.h"
 #include "search/levels.h"
 

@@ -139,7 +139,11 @@ ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity, co
     // it.
     if (quantity == GridLaw::Pull) missing = std::max(kPullToLimit, runs.octaves);
     if (quantity == GridLaw::Modulation) missing *= std::max(runs.octaves, 1.0);
-    if (quantity == GridLaw::Area) {
+    // The step over a grid that resolves the cut-off says how much the area depends on that, not
+    // how well it is resolved; that of coarse features counts on any.
+    if (quantity == GridLaw::Area && runs.octaves == 0) {
+      missing = runs.coarse_features;
+    } else if (quantity == GridLaw::Area) {
       const double step = grid_error(out.halving);
       const double all = left_out_of(step, std::max(runs.octaves, kFewestOctaves));
       missing = all - (1 - kNotKnown) * left_out_of(step, runs.octaves);
@@ -249,11 +253,7 @@ void state_errors(const ControlRuns& controls, std::size_t m, double resolved, M
       return std::optional((points[i].*quantity.value).value);
     };
     const ControlledChange change = controlled_change(controls, quantity.grid, number);
-    // The step over a grid that resolves the cut-off says how much the area depends on that, not
-    // how well it is resolved; that of coarse features counts on any.
-    const bool of_texture = quantity.grid == GridLaw::Area && controls.octaves == 0;
-    of_grid.push_back(of_texture ? controls.coarse_features * grid_error(change.halving)
-                                 : grid_error(change.grid));
+    of_grid.push_back(grid_error(change.grid));
     of_method.push_back(method_error(change.method));
     law.push_back((own[i].*quantity.value).value);
     fine.push_back(load_law ? (controls.areas.points[i].*quantity.value).value : law.back());

@@ -13,7 +13,8 @@ namespace papilla::forward {
 
 // Ridges from their longest wave to the patch's, then the skin within patches; moduli of the
 // humidity. Cost 1 ms.
-MeanField ridge_field(const Finger& finger, double q_patch, double relative_humidity);
+MeanField ridge_field(const Finger& finger, double q_patch, double relative_humidity,
+                      const MeanFieldOptions& options = {});
 
 // Gaps [m] on a common row, and the share of the area at each: a distribution for sums over many
 // surfaces. What lies between two gaps is shared out between them.

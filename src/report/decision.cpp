@@ -10,8 +10,8 @@
 #include "config/describe.h"
 #include "metrics/shown.h"
 #include "report/json.h"
+#include "report/recommendation.h"
 #include "report/run_numbers.h"
-#include "report/sheet.h"
 #include "report/tables.h"
 
 namespace papilla::report {
@@ -87,11 +87,6 @@ std::string reversal_text(const ResultFiles& f, const std::string& where, const 
                      where, name_of(f, r.best), p_limits_text(f, d.best));
 }
 
-// "207 nm", three digits.
-std::string in_digits(double si, const std::string& unit) {
-  return significant(si / find_unit(unit)->to_si, 3) + (unit.empty() ? "" : " " + unit);
-}
-
 // "where finger.skin.rms is below 207 nm"
 std::string parameter_text(const ResultFiles& f, const char* word) {
   const HalvesReversal& p = *decision_of(f).parameter;
@@ -102,7 +97,7 @@ std::string parameter_text(const ResultFiles& f, const char* word) {
   return fmt::format("where finger.{} is {} {}", p.path, word,
                      stated(bare_number("middle of belief in finger." + p.path, edge, field.unit,
                                         kOfBelief, kOfDecision),
-                            in_digits(p.edge, field.unit)));
+                            in_unit(p.edge, field.unit, 3)));
 }
 
 // Each hypothesis and the parameter that another design is better under.

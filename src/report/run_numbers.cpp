@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/text.h"
+#include "base/units.h"
 #include "metrics/shown.h"
 
 namespace papilla::report {
@@ -74,6 +76,11 @@ StatedNumber count_number(const std::string& words, std::size_t count,
 StatedNumber whole_text(const std::string& words, const std::string& no_value,
                         std::vector<Stage> rests_on) {
   return bare_number(words, std::nan(""), "", no_value, std::move(rests_on));
+}
+
+std::string in_unit(double si, const std::string& unit, int digits) {
+  const double shown = si / find_unit(unit)->to_si;
+  return significant(shown, digits) + (unit.empty() ? "" : " " + unit);
 }
 
 }  // namespace papilla::report

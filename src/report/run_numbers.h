@@ -18,10 +18,15 @@ std::string objective_text(const ResultFiles& files, const std::string& of, cons
 // What a design has more than another.
 StatedNumber difference_number(const ResultFiles& files, const std::string& words,
                                const Score& design, const Score& other, std::size_t objective);
+// Why a number has no bar.
+constexpr const char* kChosen = "chosen: it is exact";
+constexpr const char* kAsked = "an input";
 // A number that has no bar, and why.
 StatedNumber bare_number(const std::string& words, double value, const std::string& unit,
                          const std::string& no_bar, std::vector<Stage> rests_on);
 StatedNumber count_number(const std::string& words, std::size_t count, std::vector<Stage> rests_on);
+// "207 nm": of so many digits in a unit.
+std::string in_unit(double si, const std::string& unit, int digits);
 // A text with several numbers in it, or none: what it says as a whole.
 StatedNumber whole_text(const std::string& words, const std::string& no_value,
                         std::vector<Stage> rests_on);

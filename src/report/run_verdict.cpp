@@ -17,7 +17,7 @@
 #include "report/folder_differences.h"
 #include "report/json.h"
 #include "report/results.h"
-#include "report/sheet.h"
+#include "report/run_json.h"
 #include "report/summary.h"
 #include "report/sums.h"
 #include "search/reanswer.h"

@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "metrics/shown.h"
 #include "report/decision.h"
+#include "report/recommendation.h"
 #include "report/remarks.h"
 #include "report/shared.h"
 #include "report/sheet.h"

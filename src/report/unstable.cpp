@@ -5,8 +5,9 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "report/limits.h"
+#include "report/recommendation.h"
 #include "report/run_numbers.h"
-#include "report/sheet.h"
 
 namespace papilla::report {
 namespace {

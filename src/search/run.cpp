@@ -62,9 +62,11 @@ std::unique_ptr<Team> make_team(const StudyProblem& problem, const OptimiseOptio
   const int wanted = problem.study().search.jobs;
   const int jobs = wanted > 0 ? wanted : omp_get_num_procs();
   const int count = std::max(1, std::min(jobs, static_cast<int>(problem.tasks().size())));
+  // Twice a worker's share: tasks are unlike, and one that waits for the others of its design
+  // leaves them its processor.
+  const int threads = std::min(jobs, 2 * jobs / count);
   return make_local_team(static_cast<std::size_t>(count),
-                         work_function(problem, std::max(1, jobs / count), response_text(options)),
-                         WorkerLimits{});
+                         work_function(problem, threads, response_text(options)), WorkerLimits{});
 }
 
 // Best values of a search so far, for people.

@@ -55,10 +55,12 @@ std::vector<Variant> variants(const StudyProblem& problem) {
   return out;
 }
 
-// Better in every objective by more than the error of the difference, skin by skin where the
-// samples of both are known.
-bool beats(const std::vector<StudyObjective>& objectives, const TaskAnswer& a,
-           const TaskAnswer& b) {
+// Better in everything that puts designs on the front: in every objective by more than the error of
+// the difference, skin by skin where the samples of both are known; where belief decides, in the
+// worst modulation too (on_front_of_belief).
+bool beats(const StudyProblem& problem, const TaskAnswer& a, const TaskAnswer& b) {
+  if (problem.belief() && problem.driven() && a.worst <= b.worst) return false;
+  const std::vector<StudyObjective>& objectives = problem.objectives();
   for (std::size_t k = 0; k < objectives.size(); ++k) {
     const TaskObjective &better = a.objectives[k], &worse = b.objectives[k];
     const double gain = (objectives[k].maximise ? 1 : -1) * (better.value - worse.value);
@@ -140,8 +142,7 @@ Stability judge_stability(const StudyProblem& problem, const std::vector<Point>&
     for (std::size_t i = 0; i < designs.size(); ++i) {
       std::optional<std::size_t>& by = result.beaten_by.emplace_back();
       for (std::size_t j = 0; j < designs.size() && counts(i) && !by; ++j) {
-        if (j != i && counts(j) && beats(problem.objectives(), answers[j][v], answers[i][v]))
-          by = j;
+        if (j != i && counts(j) && beats(problem, answers[j][v], answers[i][v])) by = j;
       }
       result.on_front.push_back(counts(i) && !by);
       out.times_on_front[i] += result.on_front.back();

@@ -17,9 +17,10 @@ struct StabilityVariant {
   std::string name;                         // "finger rough", "first droplet step 50 nm"
   std::vector<std::vector<double>> values;  // [design][objective], the user's sign; empty: failed
   std::vector<bool> on_front{};             // it keeps every limit, and none beats it
-  std::vector<std::optional<std::size_t>> beaten_by{};  // a design that is better in all objectives
-  std::vector<std::vector<LimitValue>> broken{};        // limits of the study that it does not keep
-  std::vector<double> worst{};                          // lowest modulation over humidity
+  std::vector<std::optional<std::size_t>>
+      beaten_by{};  // a design that is better in everything that is compared
+  std::vector<std::vector<LimitValue>> broken{};  // limits of the study that it does not keep
+  std::vector<double> worst{};                    // lowest modulation over humidity
 };
 
 struct Stability {
@@ -48,7 +49,7 @@ TaskAnswer evaluate_variant(const StudyProblem& problem, const Design& design, s
 
 // From answers[design][variant]. All designs meet the same skins: one counts as beaten only where
 // another is better in every objective by more than the error of their difference, skin by skin
-// (Eq. accuracy.14).
+// (Eq. accuracy.14), and, where belief decides on the front, in the worst modulation.
 Stability judge_stability(const StudyProblem& problem, const std::vector<Point>& designs,
                           const std::vector<std::vector<TaskAnswer>>& answers);
 

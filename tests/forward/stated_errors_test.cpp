@@ -138,11 +138,15 @@ TEST(StatedErrors, OctavesThatTheGridLeavesOutAreTakenOffTheAreas) {
   runs.coarse_features = 0.2;
   EXPECT_NEAR(grid_part(runs, area), 0.2 * 0.1, 1e-9);
   runs.coarse_features = 0;
-  // Of a grid that leaves next to nothing out nothing is taken off, and that its areas are known no
-  // better than by 0.6 of an octave is not forgotten.
+  // A grid that resolves the cut-off has coarse features alone, in a value as in a difference.
   runs.octaves = 0;
   EXPECT_EQ(resolved_areas(runs), 1);
-  EXPECT_NEAR(grid_part(runs, area), 1 - std::pow(1.1, -0.6), 1e-9);
+  EXPECT_EQ(grid_part(runs, area), 0);
+  runs.coarse_features = 0.2;
+  EXPECT_NEAR(grid_part(runs, area), 0.2 * 0.1, 1e-9);
+  runs.coarse_features = 0;
+  // Of one that leaves next to nothing out little is taken off, and that its areas are known no
+  // better than by 0.6 of an octave is not forgotten.
   runs.octaves = 0.3;
   EXPECT_NEAR(resolved_areas(runs), std::pow(1.1, -0.3), 1e-9);
   EXPECT_NEAR(grid_part(runs, area), 1 - std::pow(1.1, -0.6) - 0.86 * (1 - std::pow(1.1, -0.3)),

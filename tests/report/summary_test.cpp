@@ -10,9 +10,12 @@
 
 #include "base/constants.h"
 #include "base/files.h"
+#include "report/grounds.h"
 #include "report/receipts.h"
+#include "report/recommendation.h"
 #include "report/remarks.h"
 #include "report/results.h"
+#include "report/run_json.h"
 #include "report/sheet.h"
 #include "report/stated_number.h"
 #include "tests/report/same_json.h"

@@ -10,7 +10,9 @@
 
 #include "base/constants.h"
 #include "base/files.h"
+#include "report/recommendation.h"
 #include "report/results.h"
+#include "report/run_json.h"
 #include "report/sheet.h"
 #include "report/stated_number.h"
 #include "report/summary.h"
@@ -189,6 +191,36 @@ TEST(UndrivenRun, AnAdviceNeedsAGainBeyondItsError) {
   run.result.finalists[0].feasible = false;
   EXPECT_EQ(as_read(recommendation(run.files())),
             "Build none of these: no design that was tried keeps every constraint.");
+}
+
+// "No texture gains" is said only where it is so of all: the advice is about the best design, whose
+// texture changes nothing, while another of the front has 30 mN less for .05 more variation.
+TEST(UndrivenRun, AFlatAdviceNamesWhatOtherTexturesGain) {
+  Searched run;
+  FinalDesign other = run.result.finalists[0];
+  other.folder = "front/02";
+  other.unit[1] = 0.9;
+  other.confirmed = score(0.05, 0.30, 0, 0);
+  run.result.finalists.push_back(other);
+  run.result.flat = score(0.0815, 0.25, 0, 0);
+  run.result.flat_before = score(0.0845, 0.255, 0, 0);
+  const std::string gained =
+      " What other textures of the front change: design 02 gains mean(friction) -31.5 ± 2 mN and "
+      "costs variation(friction) +0.050 ± 0.012.";
+  EXPECT_EQ(as_read(recommendation(run.files())),
+            "Leave it flat and change the finish (surface.contact_angle 50 deg to 70 deg): that "
+            "gains mean(friction) -3 ± 2 mN; the texture of design 01, the best design, adds no "
+            "more than the error of the difference." +
+                gained);
+  run.result.flat_before = score(0.0815, 0.25, 0, 0);
+  EXPECT_EQ(as_read(recommendation(run.files())),
+            "Leave it flat: the texture of design 01, the best design, adds no more than the error "
+            "of the difference." +
+                gained);
+  run.result.finalists[1].on_front = false;  // what is beaten is no alternative
+  EXPECT_EQ(as_read(recommendation(run.files())),
+            "Leave it flat: no texture or finish of this search gains more than the error of the "
+            "difference.");
 }
 
 TEST(UndrivenRun, ItsTablesHaveTheParametersAndNoModulation) {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <map>
 
+#include "report/recommendation.h"
 #include "report/remarks.h"
-#include "report/sheet.h"
 #include "report/stated_number.h"
 #include "search/findings.h"
 #include "search/levels.h"

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "report/decision.h"
-#include "report/sheet.h"
+#include "report/recommendation.h"
 #include "report/stated_number.h"
 #include "search/levels.h"
 #include "tests/search/formula_run.h"

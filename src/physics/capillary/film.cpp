@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <queue>
 #include <utility>
 
 #include "base/constants.h"
@@ -47,10 +47,58 @@ void for_cells(const Grid& g, Visit&& visit) {
 }
 
 std::array<std::size_t, 4> neighbours(const Grid& g, std::size_t at) {
-  const int ix = static_cast<int>(at % g.nx), iy = static_cast<int>(at / g.nx);
-  return {g.index(wrap(ix + 1, g.nx), iy), g.index(wrap(ix - 1, g.nx), iy),
-          g.index(ix, wrap(iy + 1, g.ny)), g.index(ix, wrap(iy - 1, g.ny))};
+  const auto nx = static_cast<std::uint32_t>(g.nx), ny = static_cast<std::uint32_t>(g.ny),
+             pixel = static_cast<std::uint32_t>(at);
+  const std::uint32_t iy = pixel / nx, ix = pixel - iy * nx;
+  return {ix + 1 == nx ? at - ix : at + 1, ix == 0 ? at + nx - 1 : at - 1,
+          iy + 1 == ny ? ix : at + nx, iy == 0 ? at + std::size_t{ny - 1} * nx : at - nx};
 }
+
+// Pixels by level, the lowest first; of one level by their number. A level and its pixel are one
+// integer, the level rounded down to 28 bits at least: four children a node and no branches on
+// their order take a third of the time of std::priority_queue.
+class PixelQueue {
+ public:
+  explicit PixelQueue(std::size_t pixels)
+      : pixels_((std::uint64_t{1} << std::bit_width(pixels)) - 1) {}
+
+  bool empty() const { return heap_.empty(); }
+
+  // level >= 0
+  void push(double level, std::size_t pixel) {
+    const std::uint64_t key = (std::bit_cast<std::uint64_t>(level + 0.0) & ~pixels_) | pixel;
+    std::size_t at = heap_.size();
+    heap_.push_back(key);
+    for (; at > 0; at = (at - 1) / kChildren) {
+      const std::uint64_t above = heap_[(at - 1) / kChildren];
+      if (above <= key) break;
+      heap_[at] = above;
+    }
+    heap_[at] = key;
+  }
+
+  std::size_t pop() {
+    const std::uint64_t top = heap_.front(), key = heap_.back();
+    heap_.pop_back();
+    const std::size_t n = heap_.size();
+    std::size_t at = 0;
+    for (std::size_t child = 1; child < n; child = kChildren * at + 1) {
+      std::size_t least = child;
+      for (std::size_t k = child + 1; k < std::min(child + kChildren, n); ++k)
+        least = heap_[k] < heap_[least] ? k : least;
+      if (heap_[least] >= key) break;
+      heap_[at] = heap_[least];
+      at = least;
+    }
+    if (n > 0) heap_[at] = key;
+    return static_cast<std::size_t>(top & pixels_);
+  }
+
+ private:
+  static constexpr std::size_t kChildren = 4;
+  std::uint64_t pixels_;  // bits of a pixel's number
+  std::vector<std::uint64_t> heap_;
+};
 
 }  // namespace
 
@@ -98,7 +146,12 @@ class Growth {
   Growth(const Gap& gap, const std::vector<FilmSource>& sources,
          const std::vector<std::size_t>& seeds,
          const std::function<double(std::size_t, int)>& joins)
-      : gap_(gap), sources_(sources), seeds_(seeds), joins_(joins), queued_(gap.grid.size(), 0) {
+      : gap_(gap),
+        sources_(sources),
+        seeds_(seeds),
+        joins_(joins),
+        queued_(gap.grid.size(), 0),
+        reached_by_(gap.grid.size()) {
     const std::size_t n = sources.size();
     bodies_.resize(n);
     out_.of_source.resize(n);
@@ -166,25 +219,18 @@ class Growth {
     region.height = 0;
     const double pixel_area = gap_.grid.pixel_area();
     ++stamp_;
-    struct Entry {
-      double level;
-      std::uint32_t pixel;
-      int source;
-      bool operator>(const Entry& other) const {
-        return level != other.level ? level > other.level : pixel > other.pixel;
-      }
-    };
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> edge;
+    PixelQueue edge(gap_.grid.size());
     const auto reach = [&](std::size_t pixel, int source) {
       if (queued_[pixel] == stamp_) return;
       queued_[pixel] = stamp_;
-      edge.push({level_at(source, pixel), static_cast<std::uint32_t>(pixel), source});
+      reached_by_[pixel] = source;
+      edge.push(level_at(source, pixel), pixel);
     };
     for (int m : body.members) reach(seeds_[m], m);
     double placed = 0, pixels = 0;
     while (!edge.empty()) {
-      const auto [level, at, source] = edge.top();
-      edge.pop();
+      const std::size_t at = edge.pop();
+      const int source = reached_by_[at];
       if (out_.source[at] != 0) {
         const int other = out_.of_source[out_.source[at] - 1];
         if (!goes_on) {
@@ -198,7 +244,7 @@ class Growth {
       }
       out_.source[at] = source + 1;
       body.pixels.push_back(at);
-      region.height = std::max(region.height, level);
+      region.height = std::max(region.height, level_at(source, at));
       region.volume += joins_(at, source);
       const double room = gap_.value[at] * pixel_area;
       if (placed + room >= region.volume) {
@@ -235,6 +281,7 @@ class Growth {
         const int s = out_.source[corner[c]];
         body[c] = s > 0 ? out_.of_source[s - 1] : -1;
       }
+      if (body[0] == body[1] && body[0] == body[2] && body[0] == body[3]) return;  // no edge here
       for (int c = 0; c < 4; ++c) {
         const int known = body[c];
         const auto here = body.begin() + c;
@@ -276,7 +323,8 @@ class Growth {
   const std::function<double(std::size_t, int)>& joins_;
   std::vector<Body> bodies_;
   FilmRegions out_;
-  std::vector<std::uint32_t> queued_;
+  std::vector<std::uint32_t> queued_;  // per pixel: the growth that reached it last
+  std::vector<int> reached_by_;        // and the source that did
   std::uint32_t stamp_ = 0;
 };
 

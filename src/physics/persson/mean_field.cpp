@@ -177,7 +177,7 @@ double MeanField::mean_gap(double pressure) const {
   return gap_from(0, pressure);
 }
 
-GapDistribution MeanField::gaps(double pressure) const {
+GapDistribution MeanField::gaps(double pressure, double up_to) const {
   PAPILLA_CHECK(pressure > 0, "the gap distribution needs a pressure > 0");
   const std::size_t n = q_.size() - 1;
   GapDistribution result;
@@ -187,7 +187,7 @@ GapDistribution MeanField::gaps(double pressure) const {
   result.mean_gap = gap_from(0, pressure);
   // Open share 1 - A by erfc: no cancellation near full contact.
   double previous_open = 0, previous_volume = result.mean_gap;  // A u: what is still to come
-  for (std::size_t i = 1; i <= n; ++i) {
+  for (std::size_t i = 1; i <= n && q_[i - 1] <= up_to; ++i) {
     const double x = pressure / std::sqrt(measure_[i]);
     const double open = std::erfc(x), contact = std::erf(x);
     const double share = open - previous_open;

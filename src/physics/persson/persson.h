@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "base/constants.h"
 #include "base/rooms.h"
 
 namespace papilla::persson {
@@ -115,7 +116,8 @@ class MeanField {
   // Mean gap [m] and gap distribution at a pressure > 0. Cost 0.2 and 1 ms. Eq. persson.7,
   // persson.8
   double mean_gap(double pressure) const;
-  GapDistribution gaps(double pressure) const;
+  // up_to: the last wave number whose bands are wanted [1/m]; half of them cost three quarters.
+  GapDistribution gaps(double pressure, double up_to = kInfinity) const;
 
  private:
   double gap_from(std::size_t node,

@@ -1,0 +1,173 @@
+#include "report/grounds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "metrics/shown.h"
+#include "report/recommendation.h"
+#include "report/run_numbers.h"
+
+namespace papilla::report {
+namespace {
+
+// Why a number has no bar.
+constexpr const char* kOfALook = "by theory, without scatter";
+constexpr const char* kOfACheck =
+    "one of the checks: the bar is that of the design, other skins in it";
+constexpr const char* kLowest = "the lowest over fingers and humidity: no bar is stated for it";
+
+// "15 to 75 %"
+std::string humidity_text(const std::vector<double>& humidities) {
+  if (humidities.empty()) return "no humidity";
+  const auto [low, high] = std::minmax_element(humidities.begin(), humidities.end());
+  const auto said = [](const char* which, double humidity, const char* unit) {
+    return stated(
+        bare_number(fmt::format("{} relative humidity", which), 100 * humidity, "%", kAsked, {}),
+        fmt::format("{:.0f}{}", 100 * humidity, unit));
+  };
+  if (*low == *high) return said("the", *low, " %");
+  return said("the lowest", *low, "") + " to " + said("the highest", *high, " %");
+}
+
+const char* state_text(FingerState state) {
+  switch (state) {
+    case FingerState::Clean:
+      return "degreased fingers (finger.state = \"clean\")";
+    case FingerState::Natural:
+      return "natural fingers, not degreased";
+    case FingerState::Wet:
+      break;
+  }
+  return "wet fingers";
+}
+
+// Which fingers and weathers the numbers are for.
+std::string conditions_text(const ResultFiles& f) {
+  std::vector<std::string> states;
+  double least = kInfinity, most = 0;
+  for (std::size_t t = 0; t < f.problem.nominal_tasks(); ++t) {
+    const Finger& finger = f.problem.tasks()[t].finger;
+    const std::string state = state_text(finger.state);
+    if (std::find(states.begin(), states.end(), state) == states.end()) states.push_back(state);
+    least = std::min(least, finger.load), most = std::max(most, finger.load);
+  }
+  const auto said = [](const char* which, double load) {
+    return stated(bare_number(fmt::format("{} load", which), load, "N", kAsked, {}),
+                  format_quantity(load, "N"));
+  };
+  const std::string load = least == most
+                               ? said("the", least)
+                               : said("the least", least) + " to " + said("the largest", most);
+  return fmt::format("Judged for {} at {} relative humidity under {}.", join_names(states, " and "),
+                     humidity_text(f.study.design.environment.relative_humidity), load);
+}
+
+// An objective in one of the checks.
+std::string checked_value(const StudyObjective& o, double value, const std::string& check) {
+  const ShownUnit shown = shown_unit(o.expression);
+  return stated(bare_number(o.name + " under " + check, value * shown.scale, shown.unit, kOfACheck,
+                            {Stage::Confirm, Stage::Stability}),
+                shown_value(o.expression, value));
+}
+
+// The numbers of a design in one of the checks: "mean(modulation) 0.296 (0.608)".
+std::string skin_text(const ResultFiles& f) {
+  const Stability& s = f.result.stability;
+  const auto place = checked_place(f);
+  if (!s.other_skin || *s.other_skin >= s.variants.size() || !place)
+    return "Another state of the skin (natural, not degreased) was not tried on it.";
+  const StabilityVariant &other = s.variants[*s.other_skin], &own = s.variants.front();
+  if (other.values[*place].empty() || own.values[*place].empty())
+    return fmt::format("On {} it has no value.", other.name);
+  std::vector<std::string> values;
+  for (std::size_t k = 0; k < f.problem.objectives().size(); ++k) {
+    const StudyObjective& o = f.problem.objectives()[k];
+    values.push_back(fmt::format("{} {} where it has {}", o.name,
+                                 checked_value(o, other.values[*place][k], other.name),
+                                 checked_value(o, own.values[*place][k], own.name)));
+  }
+  const auto worst = [&](const StabilityVariant& v) {
+    return stated(bare_number("worst modulation under " + v.name, v.worst[*place], "", kOfACheck,
+                              {Stage::Stability}),
+                  fmt::format("{:.3f}", v.worst[*place]));
+  };
+  if (f.problem.driven() && *place < other.worst.size())
+    values.push_back(
+        fmt::format("a worst modulation of {} where it has {}", worst(other), worst(own)));
+  return fmt::format("On {} ({}) it has {}.", other.name, f.problem.tasks().front().name,
+                     join_names(values));
+}
+
+// Choices of the model, and how far each moves the design alone. Without belief no ± holds any.
+std::string model_text(const ResultFiles& f) {
+  const Stability& s = f.result.stability;
+  const auto place = checked_place(f);
+  const std::string out =
+      f.problem.has_belief() ? "Choices of the model, each alone" : "In no ±: choices of the model";
+  if (!s.other_skin || !place)
+    return out + " (`papilla explain` names them), which were not tried on it.";
+  std::vector<std::string> names, ranges;
+  std::vector<std::vector<double>> values;
+  for (std::size_t v = *s.other_skin + 1; v < s.variants.size(); ++v) {
+    names.push_back(s.variants[v].name);
+    if (!s.variants[v].values[*place].empty()) values.push_back(s.variants[v].values[*place]);
+  }
+  for (std::size_t k = 0; k < f.problem.objectives().size() && !values.empty(); ++k) {
+    const StudyObjective& o = f.problem.objectives()[k];
+    const auto [low, high] = std::minmax_element(
+        values.begin(), values.end(), [k](const auto& a, const auto& b) { return a[k] < b[k]; });
+    ranges.push_back(
+        fmt::format("{} {} to {}", o.name,
+                    checked_value(o, (*low)[k], "the choice of the model that makes it least"),
+                    checked_value(o, (*high)[k], "the choice of the model that makes it largest")));
+  }
+  return fmt::format("{} ({}): over these {}.", out, join_names(names),
+                     ranges.empty() ? "it has no value" : "it has " + join_names(ranges));
+}
+
+// A modulation that nobody feels somewhere.
+std::string felt_text(const ResultFiles& f) {
+  const double worst = recommended_of(f).confirmed.worst;
+  if (!f.problem.driven() || worst >= kNoticed) return {};
+  return fmt::format(
+      "At its worst, over fingers and humidity, the modulation is {}: below {}, the least "
+      "relative difference of friction that people notice (Fehlberg 2022), it is not felt there.",
+      worst_text("what is recommended", worst),
+      stated(bare_number("least relative difference that people notice", kNoticed, "",
+                         "published (Fehlberg 2022)", {}),
+             fmt::format("{:.2g}", kNoticed)));
+}
+
+// How it looks, where the study says what the glass is.
+std::string look_text(const ResultFiles& f) {
+  const Design built = built_design(f);
+  const bool asked = f.problem.goals().looks || f.study.origins.count("surface.refractive_index");
+  if (!asked || !(facts(built.texture).quick_look || f.problem.goals().looks)) return {};
+  const Optics look = appearance_of(built);
+  if (look.refused()) return "Its haze is not known: " + look.warning + ".";
+  return fmt::format("It has {} haze{}.",
+                     stated(bare_number("haze of what is built", 100 * look.haze, "%", kOfALook,
+                                        {Stage::Confirm, Stage::Rounding}),
+                            significant(100 * look.haze, 3) + " %"),
+                     look.warning.empty() ? "" : " (" + look.warning + ")");
+}
+
+}  // namespace
+
+std::string worst_text(const std::string& of, double worst) {
+  return stated(bare_number("worst modulation of " + of, worst, "", kLowest,
+                            {Stage::Confirm, Stage::Rounding}),
+                fmt::format("{:.3f}", worst));
+}
+
+std::vector<std::string> grounds(const ResultFiles& f) {
+  std::vector<std::string> out{conditions_text(f) + " " + skin_text(f), model_text(f)};
+  for (std::string said : {felt_text(f), look_text(f)}) {
+    if (!said.empty()) out.push_back(std::move(said));
+  }
+  return out;
+}
+
+}  // namespace papilla::report

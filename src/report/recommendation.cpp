@@ -1,0 +1,275 @@
+#include "report/recommendation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "base/units.h"
+#include "design/families.h"
+#include "metrics/shown.h"
+#include "report/decision.h"
+#include "report/limits.h"
+#include "report/run_numbers.h"
+#include "report/unstable.h"
+#include "report/yield.h"
+
+namespace papilla::report {
+namespace {
+
+const FinalDesign& best_of(const ResultFiles& f) { return f.result.finalists[f.result.best]; }
+Advice advice_of(const ResultFiles& f) { return search::advice_of(f.problem, f.result); }
+
+// Objectives in which a design is better (else worse) by more than the error: "mean(modulation)
+// +0.031 ± 0.012". words: which design less which.
+std::string changes(const ResultFiles& f, const std::string& words, const Score& design,
+                    const Score& other, bool better) {
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < design.values.size(); ++k) {
+    const StudyObjective& o = f.problem.objectives()[k];
+    const double change = design.values[k] - other.values[k];
+    const double error = difference_error(design, other, k);
+    if ((o.maximise == better ? change : -change) <= error) continue;
+    // A quantity without an error, an appearance, changes by rounding alone.
+    if (shown_value(o.expression, change) == shown_value(o.expression, 0)) continue;
+    const std::string unit = shown_unit(o.expression).unit;
+    const std::string said =
+        fmt::format("{} ± {}{}", shown_value(o.expression, change, true),
+                    shown_error(o.expression, error), unit.empty() ? "" : " " + unit);
+    out.push_back(o.name + " " + stated(difference_number(f, words, design, other, k), said));
+  }
+  return join_names(out);
+}
+
+// "gains mean(modulation) +0.031 ± 0.012 and costs ..."; "" where neither is beyond its error.
+std::string gains_and_costs(const ResultFiles& f, const std::string& words, const Score& design,
+                            const Score& other) {
+  const std::string gain = changes(f, words, design, other, true),
+                    cost = changes(f, words, design, other, false);
+  if (gain.empty()) return cost.empty() ? "" : "costs " + cost;
+  return "gains " + gain + (cost.empty() ? "" : " and costs " + cost);
+}
+
+// The value of a variable.
+std::string chosen_value(const Variable& v, double value, const std::string& of) {
+  const std::string text = variable_text(v, value);
+  if (v.is_kind()) return text;
+  return stated(bare_number(v.path + " of " + of, value / find_unit(v.unit)->to_si, v.unit, kChosen,
+                            {Stage::Confirm}),
+                text);
+}
+
+// "surface.contact_angle 60 deg to 90 deg": what of the best design is not the texture's.
+std::string finish_text(const ResultFiles& f) {
+  const std::vector<double> own = f.problem.space().value(f.problem.space().unit_of_study());
+  const std::vector<double> best = f.problem.space().value(best_of(f).unit);
+  std::vector<std::string> out;
+  for (std::size_t k : changed_finish(f.problem, f.result)) {
+    const Variable& v = f.study.variables[k];
+    out.push_back(fmt::format("{} {} to {}", v.path, chosen_value(v, own[k], "the study"),
+                              chosen_value(v, best[k], "the best")));
+  }
+  return join_names(out);
+}
+
+// "surface.contact_angle 63 deg, drive.amplitude 180 V": what the variables say of a surface
+// besides its texture.
+std::string surface_text(const ResultFiles& f, const std::string& of, const Point& unit) {
+  const std::vector<double> value = f.problem.space().value(unit);
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < value.size(); ++k) {
+    const Variable& v = f.study.variables[k];
+    if (!v.path.starts_with("texture."))
+      out.push_back(fmt::format("{} {}", v.path, chosen_value(v, value[k], of)));
+  }
+  return join_names(out);
+}
+
+std::vector<std::string> broken_texts(const std::vector<LimitValue>& limits) {
+  std::vector<std::string> out;
+  for (const LimitValue& v : limits) {
+    if (!v.kept()) out.push_back(limit_broken(v));
+  }
+  return out;
+}
+
+std::string unstable_recommended(const ResultFiles& f) {
+  const auto place = checked_place(f);
+  return place ? unstable_text(f, *place) : std::string();
+}
+
+// What rounding would break, where it is not on the grid for that.
+std::string rounding_text(const ResultFiles& f) {
+  if (!f.result.build || f.result.build->on_grid) return {};
+  const FinalDesign& nearest = f.result.build->nearest.value();
+  std::vector<std::string> broken;
+  if (nearest.confirmed.ok)
+    broken = broken_texts(f.problem.constraints().values(nearest.design, nearest.confirmed));
+  return fmt::format(
+      " Its numbers are as searched, off the grid of the fab: of {} designs of the grid that were "
+      "judged none keeps every limit{}; use a finer `search.rounding`.",
+      judged_on_grid(*f.result.build),
+      broken.empty() ? "" : " (of the nearest " + join_names(broken) + ")");
+}
+
+// What textures of the front gain over what is recommended without one, at which cost: the advice
+// is about the best design alone.
+std::string other_textures(const ResultFiles& f) {
+  const Score flat = recommended_of(f).confirmed;
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < f.result.finalists.size(); ++i) {
+    const FinalDesign& d = f.result.finalists[i];
+    if (!d.on_front || i == f.result.best || !facts(d.design.texture).relief.present) continue;
+    if (search::no_better(f.problem.objectives(), d.confirmed, flat)) continue;
+    const std::string name = design_name(d.folder);
+    out.push_back(
+        name + " " +
+        gains_and_costs(f, name + " less what is recommended without texture", d.confirmed, flat));
+  }
+  return out.empty() ? ""
+                     : " What other textures of the front change: " + join_names(out, "; ") + ".";
+}
+
+// Why no texture is built: of all of them where none gains, else of the best design alone.
+std::string no_texture(const ResultFiles& f, const std::string& of_all, bool others_gain) {
+  if (!others_gain) return of_all + " more than the error of the difference";
+  const FinalDesign& best = best_of(f);
+  return facts(best.design.texture).relief.present
+             ? "the texture of " + design_name(best.folder) +
+                   ", the best design, adds no more than the error of the difference"
+             : design_name(best.folder) + ", the best design, has no texture";
+}
+
+std::string worth_building(const ResultFiles& f) {
+  const OptimiseResult& r = f.result;
+  const FinalDesign& best = best_of(f);
+  std::vector<std::string> clauses;
+  std::vector<std::string> broken;
+  for (const LimitValue& v : broken_without_texture(f.problem, r))
+    broken.push_back(limit_broken(v));
+  if (!broken.empty())
+    clauses.push_back(fmt::format("Without its texture the same surface breaks a limit: {}.",
+                                  join_names(broken)));
+  if (const std::string same = gains_and_costs(f, "the best less the same surface without texture",
+                                               best.confirmed, *r.flat);
+      !same.empty())
+    clauses.push_back("Against the same surface without texture it " + same + ".");
+  const auto flat = best_flat(f.problem, r);
+  const std::string of_flat = "the best flat surface of the run";
+  if (flat &&
+      surface_text(f, of_flat, r.finalists[*flat].unit) != surface_text(f, of_flat, best.unit)) {
+    const FinalDesign& other = r.finalists[*flat];
+    const std::string both =
+        gains_and_costs(f, "the best less " + of_flat, best.confirmed, other.confirmed);
+    const std::string surface = surface_text(f, of_flat, other.unit);
+    clauses.push_back(fmt::format(
+        "Against the best flat surface of this run, {}{}, it {}.", design_name(other.folder),
+        surface.empty() ? "" : " (" + surface + ")",
+        both.empty() ? "is no better and no worse than the error of the difference" : both));
+  }
+  if (const std::string finish = finish_text(f); !finish.empty())
+    clauses.push_back("The finish changes too (" + finish + ").");
+  return fmt::format("Build {} ({}). {}", design_name(best.folder), shape_text(built_design(f)),
+                     join_names(clauses, " "));
+}
+
+std::string leave_flat(const ResultFiles& f) {
+  const std::string others = other_textures(f);
+  return fmt::format("Leave it flat: {}.{}{}",
+                     no_texture(f, "no texture or finish of this search gains", !others.empty()),
+                     others, rounding_text(f));
+}
+
+std::string change_finish(const ResultFiles& f) {
+  const OptimiseResult& r = f.result;
+  const std::string others = other_textures(f),
+                    none = no_texture(f, "no texture of this search adds", !others.empty());
+  if (!r.flat_before) {
+    return fmt::format(
+        "Leave it flat: {}. What the finish does ({}) is not known: the study's own surface was "
+        "not computed in the time.{}{}{}",
+        none, finish_text(f), others, rounding_text(f), unstable_recommended(f));
+  }
+  return fmt::format("Leave it flat and change the finish ({}): that gains {}; {}.{}{}{}",
+                     finish_text(f),
+                     changes(f, "the finish of the best less that of the study",
+                             r.flat ? *r.flat : best_of(f).confirmed, *r.flat_before, true),
+                     none, others, rounding_text(f), unstable_recommended(f));
+}
+
+}  // namespace
+
+std::string design_name(const std::string& folder) {
+  constexpr std::string_view kFront = "front/";
+  if (!folder.starts_with(kFront)) return folder.empty() ? "a dominated design" : folder;
+  return "design " + folder.substr(kFront.size());
+}
+
+FinalDesign recommended_of(const ResultFiles& f) { return recommended_design(f.problem, f.result); }
+
+std::string judged_on_grid(const BuiltDesign& build) {
+  return stated(count_number("designs of the grid that were judged", build.judged,
+                             {Stage::Confirm, Stage::Rounding}),
+                fmt::format("{}", build.judged));
+}
+
+std::string shape_text(const Design& design) {
+  Texture texture = design.texture;
+  const TextureFacts of = facts(texture);
+  const auto* array = std::get_if<FeatureArray>(&of.outline);
+  std::string kind =
+      array ? std::string(array->drawn) : std::string(texture_kinds()[texture.kind.index()]);
+  std::replace(kind.begin(), kind.end(), '_', ' ');
+  const Roles role = roles(texture);
+  std::vector<std::string> measures;
+  const std::vector<NumberField> known = number_fields(texture, "texture");
+  const auto add = [&](const double* value, const char* word) {
+    for (const NumberField& field : known) {
+      if (field.value == value)
+        measures.push_back(
+            stated(
+                bare_number(field.path + " in words", *field.value / find_unit(field.unit)->to_si,
+                            field.unit, kChosen, {Stage::Confirm, Stage::Rounding}),
+                in_unit(*field.value, field.unit, 4)) +
+            " " + word);
+    }
+  };
+  add(role.width, "wide");
+  add(role.period, "apart");
+  add(role.depth, array && !array->deep ? "high" : "deep");
+  return measures.empty() ? kind : kind + " " + join_names(measures);
+}
+
+Design built_design(const ResultFiles& f) {
+  return f.result.build ? f.result.build->made.design : recommended_of(f).design;
+}
+
+// Where the design is among those whose order was checked.
+std::optional<std::size_t> checked_place(const ResultFiles& f) {
+  const FinalDesign design = recommended_of(f);
+  for (std::size_t i = 0; i < f.result.finalists.size(); ++i) {
+    if (f.result.finalists[i].unit == design.unit && !design.flat && f.result.stability.judged(i))
+      return i;
+  }
+  return std::nullopt;
+}
+
+std::string recommendation(const ResultFiles& f) {
+  switch (advice_of(f)) {
+    case Advice::Nothing:
+      return "Build none of these: no design that was tried keeps every constraint.";
+    case Advice::Unknown:
+      return "Whether a texture is worth building is not known: the surface without it was not "
+             "computed in the time.";
+    case Advice::LeaveFlat:
+      return leave_flat(f);
+    case Advice::Finish:
+      return change_finish(f);
+    case Advice::Texture:
+      break;
+  }
+  return worth_building(f) + decision_sentence(f) + yield_sentence(f) + rounding_text(f) +
+         unstable_recommended(f);
+}
+
+}  // namespace papilla::report

@@ -1,0 +1,31 @@
+// What should be built, of a finished run, in one paragraph: what it gains and costs, and what
+// speaks against it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/rooms.h"
+#include "search/advice.h"
+#include "search/run.h"
+
+namespace papilla::report {
+
+// Its numbers carry what is behind them (stated_number.h).
+std::string recommendation(const ResultFiles& files);
+
+// The design that it is about, as it was searched.
+FinalDesign recommended_of(const ResultFiles& files);
+// That design on the grid of the fab: values as the sheet has them, in every digit.
+Design built_design(const ResultFiles& files);
+// Where it is among the finalists whose order was checked.
+std::optional<std::size_t> checked_place(const ResultFiles& files);
+// How many designs of the grid were judged for it.
+std::string judged_on_grid(const BuiltDesign& build);
+
+// "design 06" of front/06.
+std::string design_name(const std::string& folder);
+// "grooves 1.2 um wide, 5.41 um apart, 349 nm deep"
+std::string shape_text(const Design& design);
+
+}  // namespace papilla::report
