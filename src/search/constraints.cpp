@@ -194,14 +194,20 @@ std::string StudyConstraints::geometry_reason(const Point& unit) const {
   return {};
 }
 
-std::vector<double> StudyConstraints::violations(const Score& score) const {
+std::vector<LimitValue> StudyConstraints::evaluated(const Score& score) const {
   const LimitedNumbers numbers = numbers_of(score);
-  std::vector<double> out;
+  std::vector<LimitValue> out;
   for (const Constraint* limit : evaluated_) {
     const bool of_yield = std::holds_alternative<YieldLimit>(limit->on);
-    out.push_back(violation(
-        *limit, of_yield ? score.yield.value().share : value_with(*limit, numbers).value()));
+    out.push_back(
+        {*limit, of_yield ? score.yield.value().share : value_with(*limit, numbers).value()});
   }
+  return out;
+}
+
+std::vector<double> StudyConstraints::violations(const Score& score) const {
+  std::vector<double> out;
+  for (const LimitValue& v : evaluated(score)) out.push_back(violation(v.limit, v.value));
   return out;
 }
 

@@ -50,6 +50,8 @@ class StudyConstraints {
   const Judged& in_look() const { return look_; }
   // Of those that need an evaluation.
   std::vector<double> violations(const Score& score) const;
+  // What these are of: of each limit that an evaluation judges.
+  std::vector<LimitValue> evaluated(const Score& score) const;
   const Judged& in_evaluation() const { return evaluated_; }
   std::size_t evaluated() const { return evaluated_.size(); }
   // All that is known of a design without an evaluation: of the shape, then of the look.

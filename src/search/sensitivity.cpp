@@ -55,13 +55,23 @@ Room room_before_evaluation(const StudyProblem& problem, const MovedDesign& cent
 
 // To the first of those that an evaluation judges, linear between both.
 Room room_with_evaluation(const StudyProblem& problem, const Score& centre, const Score& moved) {
-  const Judged& limits = problem.constraints().in_evaluation();
-  const std::vector<double> here = problem.constraints().violations(centre),
-                            there = problem.constraints().violations(moved);
+  const std::vector<LimitValue> here = problem.constraints().evaluated(centre),
+                                there = problem.constraints().evaluated(moved);
   Room out;
-  for (std::size_t k = 0; k < limits.size(); ++k) {
-    if (there[k] <= 0) continue;
-    out.end(here[k] < 0 ? -here[k] / (there[k] - here[k]) : 0, limit_name(limits[k]->on));
+  for (std::size_t k = 0; k < here.size(); ++k) {
+    if (there[k].kept()) continue;
+    const Constraint& limit = here[k].limit;
+    if (!here[k].kept()) {
+      out.end(0, limit_name(limit.on));
+      continue;
+    }
+    // Of the number itself, as a yield of 0 is infinitely off; a margin without a field is
+    // infinite.
+    const double from = std::isfinite(here[k].value) ? here[k].value - limit.limit
+                                                     : violation(limit, here[k].value),
+                 to = std::isfinite(here[k].value) ? there[k].value - limit.limit
+                                                   : violation(limit, there[k].value);
+    out.end(from / (from - to), limit_name(limit.on));
   }
   return out;
 }
