@@ -5,12 +5,34 @@
 #include "base/text.h"
 
 namespace papilla::metrics {
+namespace {
+
+// Shares of light are read in hundredths.
+bool share_of_light(const Metric& metric) {
+  const auto* look = std::get_if<LookMetric>(&metric);
+  if (!look) return false;
+  for (auto number : {&Look::haze, &Look::transmittance, &Look::total_transmittance,
+                      &Look::distinctness, &Look::sparkle}) {
+    if (look->number == number) return true;
+  }
+  return false;
+}
+
+// What people read: three decimals of a number without a unit, two of a per cent, else four digits.
+std::string in_shown_unit(const ShownUnit& shown, double si) {
+  const double v = si * shown.scale + 0.0;  // a zero has no sign
+  if (shown.unit.empty()) return fixed(v, 3);
+  return shown.unit == "%" ? fixed(v, 2) : fmt::format("{:.4g}", v);
+}
+
+}  // namespace
 
 ShownUnit shown_unit(const MetricExpression& e) {
   const std::string& unit = info_of(e.metric).unit;
+  const bool relative = e.summary == Summary::Variation || e.summary == Summary::Range;
+  if (!relative && share_of_light(e.metric)) return {100, "%"};
   // As a share of its mean over humidity it has no unit.
-  if (e.summary == Summary::Variation || e.summary == Summary::Range || unit.empty())
-    return {1, ""};
+  if (relative || unit.empty()) return {1, ""};
   if (unit == "N") return {1e3, "mN"};
   if (unit == "m") return {1e9, "nm"};
   if (unit == "m/Pa") return {1e12, "um/MPa"};
@@ -18,10 +40,7 @@ ShownUnit shown_unit(const MetricExpression& e) {
 }
 
 std::string shown_value(const MetricExpression& e, double si, bool with_sign) {
-  const ShownUnit shown = shown_unit(e);
-  const double v = si * shown.scale;
-  // + 0.0: a zero has no sign.
-  const std::string text = shown.unit.empty() ? fixed(v, 3) : fmt::format("{:.4g}", v + 0.0);
+  const std::string text = in_shown_unit(shown_unit(e), si);
   return fmt::format("{}{}", with_sign && !text.starts_with('-') ? "+" : "", text);
 }
 
@@ -31,7 +50,8 @@ std::string shown_change(const MetricExpression& e, double si) {
 
 std::string shown_error(const MetricExpression& e, double si) {
   const ShownUnit shown = shown_unit(e);
-  return shown.unit.empty() ? fmt::format("{:.3f}", si) : fmt::format("{:.2g}", si * shown.scale);
+  if (shown.unit.empty() || shown.unit == "%") return in_shown_unit(shown, si);
+  return fmt::format("{:.2g}", si * shown.scale);
 }
 
 }  // namespace papilla::metrics

@@ -69,7 +69,8 @@ std::string checked_value(const StudyObjective& o, double value, const std::stri
   const ShownUnit shown = shown_unit(o.expression);
   return stated(bare_number(o.name + " under " + check, value * shown.scale, shown.unit, kOfACheck,
                             {Stage::Confirm, Stage::Stability}),
-                shown_value(o.expression, value));
+                shown_value(o.expression, value)) +
+         (shown.unit.empty() ? "" : " " + shown.unit);
 }
 
 // The numbers of a design in one of the checks: "mean(modulation) 0.296 (0.608)".

@@ -152,7 +152,8 @@ TEST(MetricWords, ASpreadIsBetterLow) {
     EXPECT_EQ(better_direction(parse_metric(text)), better) << text;
 }
 
-// mN, nm and um/MPa; shares to three decimals, quantities to four digits, errors to two.
+// mN, nm and um/MPa; shares to three decimals, of light to two of a per cent, quantities to four
+// digits, errors to two.
 TEST(MetricWords, ValuesAreShownInTheUnitsOfPeople) {
   struct Row {
     const char* metric;
@@ -168,6 +169,10 @@ TEST(MetricWords, ValuesAreShownInTheUnitsOfPeople) {
                          {"mean_gap", 1e9, "nm", "1.235e+08", "+1.2e+08", "1.2e+08"},
                          {"variation(mean_gap)", 1, "", "0.123", "+0.12", "0.123"},
                          {"compliance", 1e12, "um/MPa", "1.235e+11", "+1.2e+11", "1.2e+11"},
+                         {"haze", 100, "%", "12.35", "+12", "12.35"},
+                         {"worst(sparkle)", 100, "%", "12.35", "+12", "12.35"},
+                         {"variation(haze)", 1, "", "0.123", "+0.12", "0.123"},
+                         {"gloss", 1, "", "0.123", "+0.12", "0.123"},
                          {"drive.amplitude", 1, "V", "0.1235", "+0.12", "0.12"}}) {
     const MetricExpression e = parse_metric(row.metric);
     EXPECT_EQ(shown_unit(e).scale, row.scale) << row.metric;
@@ -180,6 +185,8 @@ TEST(MetricWords, ValuesAreShownInTheUnitsOfPeople) {
   }
   EXPECT_EQ(shown_value(parse_metric("modulation"), -1e-9), "0.000");
   EXPECT_EQ(shown_value(parse_metric("friction"), -0.0), "0");
+  // What nothing scatters has rounding alone.
+  EXPECT_EQ(shown_error(parse_metric("haze"), 1e-17), "0.00");
   EXPECT_EQ(shown_change(parse_metric("friction"), -0.0), "+0");
 }
 

@@ -37,10 +37,11 @@ const run = data.run;
 // Objectives in the units that people read: forces in mN.
 const shownAs = (name) => (run.shown || {})[name] || { scale: 1, unit: '' };
 const called = (name) => name + (shownAs(name).unit ? ' [' + shownAs(name).unit + ']' : '');
-const change = (v, name) => { const s = shownAs(name), text = s.unit ? round(v * s.scale, 3) : fixed(v); return text.startsWith('-') ? '−' + text.slice(1) : '+' + text; };
+const change = (v, name) => { const s = shownAs(name), text = s.unit === '%' ? (v * s.scale).toFixed(2) : s.unit ? round(v * s.scale, 3) : fixed(v); return text.startsWith('-') ? '−' + text.slice(1) : '+' + text; };
 function quantity(q, name) {
   const s = shownAs(name);
   if (!q || !s.unit) return withError(q);
+  if (s.unit === '%') return [q.value, q.se].filter((v) => v !== undefined && v !== null).map((v) => (v * s.scale).toFixed(2)).join(' ± ');
   return round(q.value * s.scale, 4) + (q.se !== undefined && q.se !== null ? ' ± ' + round(q.se * s.scale, 2) : '') + (q.parameters ? ' (' + round(q.parameters * s.scale, 2) + ')' : '');
 }
 
