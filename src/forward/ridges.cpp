@@ -86,7 +86,7 @@ GapShares gap_shares(const GapDistribution& gaps, double q) {
 std::shared_ptr<const RidgeGaps> ridge_gaps(const Finger& finger, double q_patch,
                                             double relative_humidity, double mean_pressure) {
   using Key = std::tuple<double, double, double, MacroContact, Skin>;
-  // Of every humidity, finger and member of a belief, as the designs of a search have them in turn.
+  // Of every humidity, finger and member of a belief: designs of one patch size have them in turn.
   constexpr double kMostBytes = 64e6;
   static Cache<Key, RidgeGaps> cache(512, kMostBytes);
   const Key key{q_patch, relative_humidity, mean_pressure, finger.macro, finger.skin};

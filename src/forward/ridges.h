@@ -35,7 +35,8 @@ struct RidgeGaps {
   // Of the ridges above the patch size alone: how far patches hang over where they just touch.
   std::vector<GapShares> hangs;
 };
-// Kept: common to the designs of a search. Cost 50 ms.
+// Kept: common to the designs of one patch size. Cost 50 ms with 450 intervals of the spectrum, of
+// which there are 300.
 std::shared_ptr<const RidgeGaps> ridge_gaps(const Finger& finger, double q_patch,
                                             double relative_humidity, double mean_pressure);
 
