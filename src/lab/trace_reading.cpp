@@ -23,7 +23,7 @@ constexpr double kLongestLag = 0.3;
 constexpr int kLags = 60;
 constexpr std::size_t kLagSamples = 20000;  // of a record, that a lag is looked for in
 // Of the record's usual normal force: blocks beyond are another load.
-constexpr double kLoadBand = 0.2;
+constexpr double kUsualLoadBand = 0.2;
 // Of the largest normal force: below it nothing touches.
 constexpr double kFree = 0.05;
 // A drift that people are told of: a share of the friction.
@@ -147,12 +147,13 @@ class Reader {
                      loads.end());
     const double usual = loads[loads.size() / 2];
     const auto other = std::erase_if(
-        blocks_, [&](const Block& b) { return std::abs(b.load - usual) > kLoadBand * usual; });
+        blocks_, [&](const Block& b) { return std::abs(b.load - usual) > kUsualLoadBand * usual; });
     if (other > 0)
-      out_.notes.push_back(fmt::format(
-          "{} left out, whose normal force is more than {:.0f} % off "
-          "{} N",
-          counted(static_cast<long long>(other), "block"), 100 * kLoadBand, significant(usual, 3)));
+      out_.notes.push_back(
+          fmt::format("{} left out, whose normal force is more than {:.0f} % off "
+                      "{} N",
+                      counted(static_cast<long long>(other), "block"), 100 * kUsualLoadBand,
+                      significant(usual, 3)));
   }
 
   // The zero of the sensor at a time, from where nothing touches: of a slide in one direction.

@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -14,9 +15,8 @@
 namespace papilla::studio {
 namespace {
 
-constexpr int kGivesWay = 19;  // niceness: the hand comes first
-
-}  // namespace
+constexpr int kChildNiceness = 19;                    // the hand comes first
+constexpr std::chrono::milliseconds kPatience{1500};  // with a child that is to end
 
 // Between fork and exec only what POSIX allows in a process of several threads.
 int start_child(const std::vector<std::string>& words, const Handle& said, const Handle& noted) {
@@ -29,7 +29,7 @@ int start_child(const std::vector<std::string>& words, const Handle& said, const
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);
   ::setpgid(0, 0);
-  ::setpriority(PRIO_PROCESS, 0, kGivesWay);
+  ::setpriority(PRIO_PROCESS, 0, kChildNiceness);
   const int nothing = ::open("/dev/null", O_RDONLY);
   ::dup2(nothing, 0);
   ::dup2(said.get(), 1);
@@ -38,6 +38,33 @@ int start_child(const std::vector<std::string>& words, const Handle& said, const
   for (int fd = kFirst; fd < kLast; ++fd) ::close(fd);  // sockets of the pages
   ::execv(argv[0], argv.data());
   ::_exit(127);
+}
+
+}  // namespace
+
+Child::Child(const std::vector<std::string>& words, const Handle& said, const Handle& noted)
+    : process_(start_child(words, said, noted)) {}
+
+Child::~Child() {
+  if (ended()) return;
+  ::kill(process_, SIGKILL);
+  ::waitpid(process_, nullptr, 0);
+}
+
+void Child::ask_to_end() {
+  if (asked_ || ended()) return;
+  ::kill(process_, SIGTERM);
+  asked_ = std::chrono::steady_clock::now();
+}
+
+std::optional<int> Child::ended() {
+  if (ended_) return ended_;
+  int status = 0;
+  if (::waitpid(process_, &status, WNOHANG) == process_)
+    ended_ = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  else if (asked_ && std::chrono::steady_clock::now() > *asked_ + kPatience)
+    ::kill(process_, SIGKILL);
+  return ended_;
 }
 
 Handle emptied(const Folder& folder, std::string_view name) {

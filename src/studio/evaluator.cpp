@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kStill{350};  // without a wish, before refining begins
 constexpr std::size_t kMostKnown = 24;            // designs whose answers are kept
-constexpr int kGivesWay = 2;                      // niceness of refining
+constexpr int kRefiningNiceness = 2;
 
 Fidelity fidelity_of_step(const Design& design, Step step) {
   if (step == Step::First) return quick_fidelity(design);
@@ -143,7 +143,7 @@ Response Evaluator::quick_of(const Design& design, const std::map<Step, Response
 
 void Evaluator::refine_while_idle() {
   // What is refined waits for what is under the hand; its helpers inherit this.
-  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kGivesWay);
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kRefiningNiceness);
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [&] {

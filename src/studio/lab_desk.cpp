@@ -1,12 +1,9 @@
 #include "studio/lab_desk.h"
 
 #include <fmt/format.h>
-#include <signal.h>
-#include <sys/wait.h>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -19,8 +16,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char *kLab = "lab", *kMeasured = "lab_measured", *kSaid = "lab_said.md",
                      *kNoted = "lab_log.txt";
-constexpr std::chrono::milliseconds kLook{300};       // between two looks at the work
-constexpr std::chrono::milliseconds kPatience{1500};  // with work that is to end
 
 std::string last_line(const std::string& text) {
   std::string out;
@@ -98,40 +93,37 @@ void LabDesk::begin(const std::string& results, std::string doing, std::vector<s
 }
 
 void LabDesk::work(const std::string& results, const std::vector<std::string>& words) {
-  int status = -1;
+  bool done = false;
   try {
     const Folder of = folder_.below(results);
-    const int child = start_child(words, emptied(of, kSaid), emptied(of, kNoted));
+    Child child(words, emptied(of, kSaid), emptied(of, kNoted));
     told_();
     std::string noted;
-    std::optional<std::chrono::steady_clock::time_point> asked;  // to end
-    while (::waitpid(child, &status, WNOHANG) != child) {
-      if (asked) {
-        if (std::chrono::steady_clock::now() > *asked + kPatience) ::kill(child, SIGKILL);
-        std::this_thread::sleep_for(kLook);
-      } else if (std::unique_lock lock(mutex_);
-                 changed_.wait_for(lock, kLook, [&] { return stopping_; })) {
-        ::kill(child, SIGTERM);
-        asked = std::chrono::steady_clock::now();
+    while (!child.ended()) {
+      {
+        std::unique_lock lock(mutex_);
+        changed_.wait_for(lock, kLook, [&] { return stopping_ && !child.asked_to_end(); });
+        if (stopping_) child.ask_to_end();
       }
       if (std::string line = last_line(of.read(kNoted)); line != noted) {
         noted = std::move(line);
         told_();
       }
     }
+    done = child.ended() == 0;
   } catch (const InputError& error) {
     const std::lock_guard lock(mutex_);
     trouble_ = error.what();
     trouble_of_ = results;
   }
-  ended(results, status);
+  ended(results, done);
   told_();
 }
 
-void LabDesk::ended(const std::string& results, int status) {
+void LabDesk::ended(const std::string& results, bool done) {
   const std::lock_guard lock(mutex_);
   doing_.clear();
-  if (!trouble_.empty() || stopping_ || (WIFEXITED(status) && WEXITSTATUS(status) == 0)) return;
+  if (!trouble_.empty() || stopping_ || done) return;
   const std::string log = results + "/" + kNoted;
   trouble_ = folder_.has(log) ? visible(last_lines(folder_.read(log))) : "the lab failed";
   trouble_of_ = results;

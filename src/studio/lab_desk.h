@@ -38,7 +38,7 @@ class LabDesk {
  private:
   void begin(const std::string& results, std::string doing, std::vector<std::string> words);
   void work(const std::string& results, const std::vector<std::string>& words);
-  void ended(const std::string& results, int status);
+  void ended(const std::string& results, bool done);
 
   Folder folder_;
   std::string program_;

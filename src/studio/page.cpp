@@ -12,7 +12,7 @@ extern const std::string_view kStudioHtml, kStudioStyle, kStudioModule, kFormMod
 
 namespace {
 
-struct Entry {
+struct Served {
   const char* path;
   const char* type;
   const std::string_view* text;
@@ -22,37 +22,37 @@ constexpr const char* kCss = "text/css; charset=utf-8";
 constexpr const char* kScript = "text/javascript; charset=utf-8";
 
 const std::array kFiles{
-    Entry{"/", kHtml, &kStudioHtml},
-    Entry{"/page/studio.css", kCss, &kStudioStyle},
-    Entry{"/page/page.css", kCss, &kPageStyle},
-    Entry{"/page/studio.js", kScript, &kStudioModule},
-    Entry{"/page/form.js", kScript, &kFormModule},
-    Entry{"/page/scene.js", kScript, &kSceneModule},
-    Entry{"/page/answer.js", kScript, &kAnswerModule},
-    Entry{"/page/search.js", kScript, &kSearchModule},
-    Entry{"/page/files.js", kScript, &kFilesModule},
-    Entry{"/page/lab.js", kScript, &kLabModule},
-    Entry{"/page/server.js", kScript, &kServerModule},
-    Entry{"/page/take.js", kScript, &kTakeModule},
-    Entry{"/plots/look.js", kScript, &kLookModule},
-    Entry{"/plots/numbers.js", kScript, &kNumbersModule},
-    Entry{"/plots/tables.js", kScript, &kTablesModule},
-    Entry{"/plots/maps.js", kScript, &kMapsModule},
-    Entry{"/plots/charts.js", kScript, &kChartsModule},
-    Entry{"/plots/dimensions.js", kScript, &kDimensionsModule},
-    Entry{"/plots/found.js", kScript, &kFoundModule},
-    Entry{"/plots/parallel.js", kScript, &kParallelModule},
-    Entry{"/plots/curves.js", kScript, &kCurvesModule},
-    Entry{"/plots/solid.js", kScript, &kSolidModule},
-    Entry{"/chart.js", kScript, &kChartScript},
-    Entry{"/three.js", kScript, &kThreeScript},
+    Served{"/", kHtml, &kStudioHtml},
+    Served{"/page/studio.css", kCss, &kStudioStyle},
+    Served{"/page/page.css", kCss, &kPageStyle},
+    Served{"/page/studio.js", kScript, &kStudioModule},
+    Served{"/page/form.js", kScript, &kFormModule},
+    Served{"/page/scene.js", kScript, &kSceneModule},
+    Served{"/page/answer.js", kScript, &kAnswerModule},
+    Served{"/page/search.js", kScript, &kSearchModule},
+    Served{"/page/files.js", kScript, &kFilesModule},
+    Served{"/page/lab.js", kScript, &kLabModule},
+    Served{"/page/server.js", kScript, &kServerModule},
+    Served{"/page/take.js", kScript, &kTakeModule},
+    Served{"/plots/look.js", kScript, &kLookModule},
+    Served{"/plots/numbers.js", kScript, &kNumbersModule},
+    Served{"/plots/tables.js", kScript, &kTablesModule},
+    Served{"/plots/maps.js", kScript, &kMapsModule},
+    Served{"/plots/charts.js", kScript, &kChartsModule},
+    Served{"/plots/dimensions.js", kScript, &kDimensionsModule},
+    Served{"/plots/found.js", kScript, &kFoundModule},
+    Served{"/plots/parallel.js", kScript, &kParallelModule},
+    Served{"/plots/curves.js", kScript, &kCurvesModule},
+    Served{"/plots/solid.js", kScript, &kSolidModule},
+    Served{"/chart.js", kScript, &kChartScript},
+    Served{"/three.js", kScript, &kThreeScript},
 };
 
 }  // namespace
 
 std::optional<PageFile> page_file(const std::string& path) {
-  for (const Entry& entry : kFiles) {
-    if (path == entry.path) return PageFile{entry.type, *entry.text};
+  for (const Served& file : kFiles) {
+    if (path == file.path) return PageFile{file.type, *file.text};
   }
   return std::nullopt;
 }

@@ -1,8 +1,6 @@
 #include "studio/search_desk.h"
 
 #include <fmt/format.h>
-#include <signal.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <charconv>
@@ -26,9 +24,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kSearches = "searches";
 constexpr const char* kLog = "log.txt";
-constexpr std::chrono::milliseconds kLook{300};       // between two looks at the journal
-constexpr std::chrono::milliseconds kPatience{1500};  // with a search that is to end
-constexpr const char* kLastWord = "5 min";            // of a search that is stopped
+constexpr const char* kLastWord = "5 min";  // of a search that is stopped
 
 const char* name_of(SearchState state) {
   switch (state) {
@@ -210,13 +206,10 @@ void SearchDesk::launch(bool again, bool to_its_end) {
 
 void SearchDesk::stop_child(std::unique_lock<std::mutex>& lock) {
   wants_child_ = false;
-  if (child_ < 0) return;
+  if (!child_) return;
   stopping_ = true;
-  ::kill(child_, SIGTERM);
-  const auto gone = [&] { return child_ < 0 || closing_; };
-  // It would end after the running evaluations; its journal has all others.
-  if (!changed_.wait_for(lock, kPatience, gone)) ::kill(child_, SIGKILL);
-  changed_.wait(lock, gone);
+  child_->ask_to_end();  // after the running evaluations; its journal has all others
+  changed_.wait(lock, [&] { return !child_ || closing_; });
 }
 
 void SearchDesk::pause() {
@@ -244,22 +237,19 @@ void SearchDesk::stop() {
 void SearchDesk::watch() {
   std::unique_lock lock(mutex_);
   while (!closing_) {
-    if (wants_child_ && child_ < 0) start_child();
-    changed_.wait_for(lock, kLook, [&] { return closing_ || (wants_child_ && child_ < 0); });
-    if (child_ < 0) continue;
+    if (wants_child_ && !child_) start_child();
+    changed_.wait_for(lock, kLook, [&] { return closing_ || (wants_child_ && !child_); });
+    if (!child_) continue;
     const bool news = read_journal();
     const bool before = state_ == SearchState::Running;
     wait_for_child();
-    if (news || (before && state_ != SearchState::Running) || child_ < 0) {
+    if (news || (before && state_ != SearchState::Running) || !child_) {
       lock.unlock();
       told_();
       lock.lock();
     }
   }
-  if (child_ > 0) {  // at the end of the studio; its journal has all that it answered
-    ::kill(child_, SIGKILL);
-    ::waitpid(child_, nullptr, 0);
-  }
+  child_.reset();  // at the end of the studio; its journal has all that it answered
 }
 
 void SearchDesk::start_child() try {
@@ -270,20 +260,19 @@ void SearchDesk::start_child() try {
   if (again_ && folder.has(kJournalName)) words.push_back("--resume");
   if (to_its_end_) words.insert(words.end(), {"--finish", "--time", kLastWord});
   const Handle log = emptied(folder, kLog);
-  child_ = studio::start_child(words, log, log);
+  child_.emplace(words, log, log);
 } catch (const InputError& error) {
   state_ = SearchState::Failed;
   trouble_ = error.what();
 }
 
 void SearchDesk::wait_for_child() {
-  int status = 0;
-  if (::waitpid(child_, &status, WNOHANG) != child_) return;
-  child_ = -1;
+  const std::optional<int> code = child_->ended();
+  if (!code) return;
+  child_.reset();
   read_journal();
-  const bool finished =
-      WIFEXITED(status) && folder_.has(in_place("run.json")) && WEXITSTATUS(status) <= 1;
-  const bool paused = stopping_ || (WIFEXITED(status) && WEXITSTATUS(status) >= 128);
+  const bool finished = folder_.has(in_place("run.json")) && (*code == 0 || *code == 1);
+  const bool paused = stopping_ || *code >= 128;
   stopping_ = false;
   state_ = finished ? SearchState::Finished : paused ? SearchState::Paused : SearchState::Failed;
   if (state_ == SearchState::Failed && trouble_.empty() && folder_.has(in_place(kLog)))

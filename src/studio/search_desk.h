@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "optim/journal.h"
 #include "search/problem.h"
 #include "search/protocol.h"
+#include "studio/child.h"
 #include "studio/session.h"
 
 namespace papilla::studio {
@@ -110,7 +112,7 @@ class SearchDesk {
   std::string stage_, trouble_;
   bool to_its_end_ = false;  // the child looks for no more than kLastWord lets it
   bool ended_ = false;       // by its journal
-  int child_ = -1;
+  std::optional<Child> child_;
   bool wants_child_ = false, again_ = false, stopping_ = false, closing_ = false;
   std::thread thread_;
 };

@@ -22,7 +22,7 @@
 #include "tests/studio/loopback.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::studio_slow_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -173,4 +173,4 @@ TEST(KilledStudio, LosesNothingThatItAnswered) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::studio_slow_test

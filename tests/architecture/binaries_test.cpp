@@ -8,7 +8,7 @@
 
 #include "tests/elf.h"
 
-namespace papilla::tests {
+namespace papilla::tests::binaries_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -41,4 +41,4 @@ TEST(Binaries, LookForLibrariesBesideThemselvesAndAreProtected) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::binaries_test

@@ -9,7 +9,7 @@
 #include "scene/belief.h"
 #include "tests/architecture/source_tree.h"
 
-namespace papilla::tests {
+namespace papilla::tests::designs_test {
 namespace {
 
 TEST(Designs, AllRead) {
@@ -47,4 +47,4 @@ TEST(Reference, PagesAreUpToDate) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::designs_test

@@ -7,7 +7,7 @@
 
 #include "tests/architecture/source_tree.h"
 
-namespace papilla::tests {
+namespace papilla::tests::equations_test {
 namespace {
 
 // "Eq. contact.3", "Eq. metrics.1-5", "Eq. field.1, field.2": all ids, with a file that names each.
@@ -59,4 +59,4 @@ TEST(Equations, OfTheCodeAreWrittenDownAndBack) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::equations_test

@@ -8,7 +8,7 @@
 #include "config/node.h"
 #include "tests/architecture/source_tree.h"
 
-namespace papilla::tests {
+namespace papilla::tests::evidence_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,4 +86,4 @@ TEST(Evidence, EveryEntrySaysHowFromWhatAndWhenItWasMade) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::evidence_test

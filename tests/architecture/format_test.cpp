@@ -4,7 +4,7 @@
 
 #include "tests/architecture/source_tree.h"
 
-namespace papilla::tests {
+namespace papilla::tests::format_test {
 namespace {
 
 TEST(Sources, AreFormattedByClangFormat) {
@@ -46,4 +46,4 @@ TEST(Sources, OfTestsWriteBelowAFolderOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::format_test

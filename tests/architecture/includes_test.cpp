@@ -8,7 +8,7 @@
 
 #include "tests/architecture/source_tree.h"
 
-namespace papilla::tests {
+namespace papilla::tests::includes_test {
 namespace {
 
 // The room that a file belongs to, by its namespace: "base", "contact", "optim", ...
@@ -153,4 +153,4 @@ TEST(Includes, LibrariesOfOthersStayInTheSourcesOfOneFolder) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::includes_test

@@ -6,7 +6,7 @@
 
 #include "tests/architecture/source_tree.h"
 
-namespace papilla::tests {
+namespace papilla::tests::pages_test {
 namespace {
 
 TEST(Pages, NameFilesThatExist) {
@@ -32,4 +32,4 @@ TEST(Pages, NameFilesThatExist) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::pages_test

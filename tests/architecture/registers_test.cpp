@@ -6,7 +6,7 @@
 
 #include "tests/architecture/source_tree.h"
 
-namespace papilla::tests {
+namespace papilla::tests::registers_test {
 namespace {
 
 const std::regex& register_words() {
@@ -45,4 +45,4 @@ TEST(Registers, TheRuleSeesWhatItShould) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::registers_test

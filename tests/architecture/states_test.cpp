@@ -5,7 +5,7 @@
 
 #include "tests/architecture/source_tree.h"
 
-namespace papilla::tests {
+namespace papilla::tests::states_test {
 namespace {
 
 // A status, trouble, ... whose words decide: searched in, or compared with a text.
@@ -43,4 +43,4 @@ TEST(States, TheRuleSeesWhatItShould) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::states_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace papilla::tests {
+namespace papilla::tests::cache_test {
 namespace {
 
 std::shared_ptr<const int> value_of(Cache<int, int>& cache, int key, double weight = 1) {
@@ -50,4 +50,4 @@ TEST(Cache, WeighsWhatItHolds) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::cache_test

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace papilla::tests {
+namespace papilla::tests::digest_test {
 namespace {
 
 // FIPS 180-4 prints the first, second and last; between them the lengths around a full block.
@@ -42,4 +42,4 @@ TEST(Md5, HasThePublishedDigests) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::digest_test

@@ -10,7 +10,7 @@
 #include "base/files.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::failed_writes_test {
 namespace {
 
 enum class Outcome { Written, WrongInput, Failed };
@@ -62,4 +62,4 @@ TEST(Mistakes, OfSeveralInputsAreToldTogether) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::failed_writes_test

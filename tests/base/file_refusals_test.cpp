@@ -14,7 +14,7 @@
 #include "base/installation.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::file_refusals_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -148,4 +148,4 @@ TEST(Files, AreWrittenWhereAChainOfLinksEndsThereOrNot) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::file_refusals_test

@@ -18,7 +18,7 @@
 #include "base/sole_writer.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -219,4 +219,4 @@ TEST_F(FolderTest, HasOneWriterAtATime) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::folder_test

@@ -17,7 +17,7 @@
 #include "base/random.h"
 #include "base/watch.h"
 
-namespace papilla::tests {
+namespace papilla::tests::keeping_test {
 namespace {
 
 // A digest of the digests of 0 to 299 letters, by another implementation (Python's hashlib).
@@ -142,4 +142,4 @@ TEST(ParallelFor, CountsWhatEndedAndThrowsTheLowest) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::keeping_test

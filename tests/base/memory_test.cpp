@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 
-namespace papilla::tests {
+namespace papilla::tests::memory_test {
 namespace {
 
 TEST(Memory, TheLimitIsAtMostThatOfTheMachine) {
@@ -47,4 +47,4 @@ TEST(Errors, NameTheirPlaceTheirKeyAndWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::memory_test

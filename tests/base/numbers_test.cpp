@@ -9,7 +9,7 @@
 #include "base/random.h"
 #include "base/text.h"
 
-namespace papilla::tests {
+namespace papilla::tests::numbers_test {
 namespace {
 
 TEST(RandomStream, HasUnitVarianceAndIndependentStreams) {
@@ -93,4 +93,4 @@ TEST(Text, AZeroHasNoSign) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::numbers_test

@@ -14,7 +14,7 @@
 #include "base/text.h"
 #include "base/units.h"
 
-namespace papilla::tests {
+namespace papilla::tests::quantities_test {
 namespace {
 
 std::string refusal(const std::string& text, const std::string& unit) {
@@ -193,4 +193,4 @@ TEST(Quantities, AnglesReadBackByTheFewestDigits) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::quantities_test

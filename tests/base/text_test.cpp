@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace papilla::tests {
+namespace papilla::tests::text_test {
 namespace {
 
 TEST(Text, TheNearestNameIsTheOneFewestEditsAway) {
@@ -77,4 +77,4 @@ TEST(Text, MarkdownTablesAreAlignedAndTheRestIsKept) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::text_test

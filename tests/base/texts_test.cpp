@@ -8,7 +8,7 @@
 
 #include "base/text.h"
 
-namespace papilla::tests {
+namespace papilla::tests::texts_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -152,4 +152,4 @@ TEST(Texts, MarkdownKeepsItsLinesAndAlignsEachTableAlone) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::texts_test

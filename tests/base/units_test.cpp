@@ -12,7 +12,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 
-namespace papilla::tests {
+namespace papilla::tests::units_test {
 namespace {
 
 TEST(Units, KnowTheUnitsOfTheField) {
@@ -169,4 +169,4 @@ TEST(Units, WrittenQuantitiesReadBackToTheSameDouble) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::units_test

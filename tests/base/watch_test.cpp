@@ -8,7 +8,7 @@
 
 #include "base/parallel.h"
 
-namespace papilla::tests {
+namespace papilla::tests::watch_test {
 namespace {
 
 TEST(Watch, CountsThePiecesOfTheInnermost) {
@@ -53,4 +53,4 @@ TEST(Watch, EndsItsWorkOnceThatIsWished) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::watch_test

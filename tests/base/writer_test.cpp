@@ -16,7 +16,7 @@
 #include "base/files.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::writer_test {
 namespace {
 
 // More than two blocks of those that are read back at once.
@@ -187,4 +187,4 @@ TEST(ReadBytes, TakesAsManyAsItsLimitAndNoMore) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::writer_test

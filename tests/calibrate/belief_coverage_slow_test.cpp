@@ -14,7 +14,7 @@
 #include "metrics/metrics.h"
 #include "tests/calibrate/files.h"
 
-namespace papilla::tests {
+namespace papilla::tests::belief_coverage_slow_test {
 namespace {
 
 using BeliefCoverageSlow = Calibrate;
@@ -149,4 +149,4 @@ TEST_F(BeliefCoverageSlow, HoldsTheTruthOfAnotherTextureAndHumidity) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::belief_coverage_slow_test

@@ -10,7 +10,7 @@
 #include "metrics/metrics.h"
 #include "tests/calibrate/files.h"
 
-namespace papilla::tests {
+namespace papilla::tests::belief_slow_test {
 namespace {
 
 using FitBeliefSlow = Calibrate;
@@ -128,4 +128,4 @@ TEST_F(FitBeliefSlow, HoldsATruthThatThePatchesWerePlantedWith) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::belief_slow_test

@@ -12,7 +12,7 @@
 #include "tests/calibrate/files.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::belief_test {
 namespace {
 
 using FitBelief = Calibrate;
@@ -162,4 +162,4 @@ TEST_F(FitBelief, IsWrittenBesideTheFingerThatNamesIt) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::belief_test

@@ -10,7 +10,7 @@
 #include "report/fit.h"
 #include "tests/calibrate/files.h"
 
-namespace papilla::tests {
+namespace papilla::tests::calibrate_slow_test {
 namespace {
 
 class Planted : public Calibrate {
@@ -148,4 +148,4 @@ skins = 4
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::calibrate_slow_test

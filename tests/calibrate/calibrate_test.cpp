@@ -11,7 +11,7 @@
 #include "tests/calibrate/files.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::calibrate_test {
 namespace {
 
 TEST_F(Calibrate, BadCellsAreNamedByLineAndColumn) {
@@ -239,4 +239,4 @@ skins = 4
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::calibrate_test

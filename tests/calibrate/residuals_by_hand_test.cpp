@@ -18,7 +18,7 @@
 #include "published/targets.h"
 #include "tests/calibrate/files.h"
 
-namespace papilla::tests {
+namespace papilla::tests::residuals_by_hand_test {
 namespace {
 
 void near(double value, double expected) {
@@ -320,4 +320,4 @@ TEST(Misfit, IsThePartOfEachDegreeOfFreedom) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::residuals_by_hand_test

@@ -15,7 +15,7 @@
 #include "tests/calibrate/files.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::tables_and_files_test {
 namespace {
 
 using TablesAndFiles = Calibrate;
@@ -297,4 +297,4 @@ TEST_F(TablesAndFiles, MistakesOfAFitAreToldInTheirWords) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::tables_and_files_test

@@ -17,7 +17,7 @@
 #include "physics/capillary/bridge_table.h"
 #include "physics/capillary/water.h"
 
-namespace papilla::tests {
+namespace papilla::tests::bridge_closed_forms_test {
 namespace {
 
 namespace branch = capillary::bridge_branch;
@@ -371,4 +371,4 @@ TEST(BridgeClosedForms, TablesAreKeptByTheirPairOfAnglesAndNotWithoutEnd) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::bridge_closed_forms_test

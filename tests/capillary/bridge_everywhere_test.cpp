@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "physics/capillary/bridge.h"
 
-namespace papilla::tests {
+namespace papilla::tests::bridge_everywhere_test {
 namespace {
 
 constexpr double kDegree = kPi / 180;
@@ -88,4 +88,4 @@ TEST(BridgeEverywhere, LargeSpheresToo) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::bridge_everywhere_test

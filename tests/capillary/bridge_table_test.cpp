@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "base/random.h"
 
-namespace papilla::tests {
+namespace papilla::tests::bridge_table_test {
 namespace {
 
 constexpr double kDegree = kPi / 180;
@@ -57,4 +57,4 @@ TEST(BridgeTable, ScalesWithVolumeAndTension) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::bridge_table_test

@@ -16,7 +16,7 @@
 #include "physics/capillary/bridge_table.h"
 #include "physics/capillary/water.h"
 
-namespace papilla::tests {
+namespace papilla::tests::bridge_test {
 namespace {
 
 constexpr double kDegree = kPi / 180;
@@ -245,4 +245,4 @@ TEST(Bridge, OfWhatIsNoneHasNoForceNoEnergyAndNoCircle) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::bridge_test

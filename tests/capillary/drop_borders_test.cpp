@@ -11,7 +11,7 @@
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/settling.h"
 
-namespace papilla::tests {
+namespace papilla::tests::drop_borders_test {
 namespace {
 
 using namespace papilla::capillary;
@@ -115,4 +115,4 @@ TEST(DropBorders, WithoutAMapOfItsEdgesNothingIsHeldAndNothingCreeps) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::drop_borders_test

@@ -12,7 +12,7 @@
 #include "physics/capillary/drop_energy.h"
 #include "physics/capillary/footprint.h"
 
-namespace papilla::tests {
+namespace papilla::tests::drop_energy_closed_forms_test {
 namespace {
 
 using namespace papilla::capillary;
@@ -309,4 +309,4 @@ TEST(DropEnergyClosedForms, AGapNearerThanAMoleculeCountsAsAMolecule) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::drop_energy_closed_forms_test

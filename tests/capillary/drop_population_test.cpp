@@ -10,7 +10,7 @@
 #include "base/constants.h"
 #include "physics/capillary/drop_energy.h"
 
-namespace papilla::tests {
+namespace papilla::tests::drop_population_test {
 namespace {
 
 using namespace papilla::capillary;
@@ -204,4 +204,4 @@ TEST(DropPopulation, FilmsAreLeftAlone) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::drop_population_test

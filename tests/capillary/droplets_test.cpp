@@ -13,7 +13,7 @@
 #include "physics/capillary/bridge.h"
 #include "physics/capillary/threshold.h"
 
-namespace papilla::tests {
+namespace papilla::tests::droplets_test {
 namespace {
 
 constexpr double kPatch = 12e-6;
@@ -448,4 +448,4 @@ TEST(Threshold, FillsTheStatedVolumeInAWedge) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::droplets_test

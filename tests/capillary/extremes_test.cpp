@@ -9,7 +9,7 @@
 #include "physics/capillary/threshold.h"
 #include "physics/capillary/water.h"
 
-namespace papilla::tests {
+namespace papilla::tests::extremes_test {
 namespace {
 
 constexpr double kPatch = 12e-6, kDegree = kPi / 180;
@@ -200,4 +200,4 @@ TEST(WaterExtremes, ADropletLargerThanThePatchIsAFilmOfItsVolume) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::extremes_test

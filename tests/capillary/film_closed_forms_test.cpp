@@ -9,7 +9,7 @@
 #include "physics/capillary/film.h"
 #include "physics/capillary/threshold.h"
 
-namespace papilla::tests {
+namespace papilla::tests::film_closed_forms_test {
 namespace {
 
 constexpr double kLowest = 40e-9, kBowl = 100e-6;  // gap in the middle, radius of curvature [m]
@@ -91,4 +91,4 @@ TEST(RoundFilm, ADropletThatBecameAFilmHasItsRetention) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::film_closed_forms_test

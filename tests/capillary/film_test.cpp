@@ -10,7 +10,7 @@
 #include "physics/capillary/droplets.h"
 #include "physics/electrostatics/field.h"
 
-namespace papilla::tests {
+namespace papilla::tests::film_test {
 namespace {
 
 constexpr double kPatch = 12e-6;
@@ -223,4 +223,4 @@ TEST(Film, NoWaterIsLostOnTheWayAndRewettingKeepsIt) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::film_test

@@ -13,7 +13,7 @@
 #include "physics/capillary/threshold.h"
 #include "physics/capillary/water.h"
 
-namespace papilla::tests {
+namespace papilla::tests::films_by_hand_test {
 namespace {
 
 using namespace papilla::capillary;
@@ -417,4 +417,4 @@ TEST(FilmsByHand, ABodyThatMeetsManyFillsWhatOneOfTheirWaterFills) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::films_by_hand_test

@@ -12,7 +12,7 @@
 #include "physics/capillary/footprint.h"
 #include "physics/capillary/gap_table.h"
 
-namespace papilla::tests {
+namespace papilla::tests::gap_table_second_method_test {
 namespace {
 
 using namespace papilla::capillary;
@@ -325,4 +325,4 @@ TEST(FootprintSecondMethod, OfAVolumeThatAWellDoesNotHoldGoesOnAroundIt) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::gap_table_second_method_test

@@ -9,7 +9,7 @@
 #include "physics/capillary/drop.h"
 #include "physics/capillary/footprint.h"
 
-namespace papilla::tests {
+namespace papilla::tests::gap_table_test {
 namespace {
 
 using namespace papilla::capillary;
@@ -104,4 +104,4 @@ TEST(Footprint, HoldsItsVolumeInPocketsToo) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::gap_table_test

@@ -19,7 +19,7 @@
 #include "physics/capillary/gap_table.h"
 #include "physics/capillary/threshold.h"
 
-namespace papilla::tests {
+namespace papilla::tests::invariants_test {
 namespace {
 
 namespace branch = capillary::bridge_branch;
@@ -419,4 +419,4 @@ TEST(Regions, AreJoinedBySidesAndOverTheBorder) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::invariants_test

@@ -10,7 +10,7 @@
 #include "physics/capillary/gap_table.h"
 #include "tests/numerics/both_ways.h"
 
-namespace papilla::tests {
+namespace papilla::tests::pixel_by_pixel_test {
 namespace {
 
 using namespace papilla::capillary;
@@ -53,4 +53,4 @@ TEST(PixelByPixel, TheProfileOfABridgeIsTheSame) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::pixel_by_pixel_test

@@ -8,7 +8,7 @@
 #include "physics/capillary/drop.h"
 #include "physics/capillary/drop_hash.h"
 
-namespace papilla::tests {
+namespace papilla::tests::places_by_hand_test {
 namespace {
 
 using namespace papilla::capillary;
@@ -158,4 +158,4 @@ TEST(DropHashByHand, ForgetsWhatIsTakenOutUntilItIsPutBack) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::places_by_hand_test

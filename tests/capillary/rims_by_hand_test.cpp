@@ -12,7 +12,7 @@
 #include "physics/capillary/rims.h"
 #include "physics/capillary/settling.h"
 
-namespace papilla::tests {
+namespace papilla::tests::rims_by_hand_test {
 namespace {
 
 using namespace papilla::capillary;
@@ -220,4 +220,4 @@ TEST(RimsByHand, NothingCreepsFromTheSkinFromBridgesOrAbove45Degrees) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::rims_by_hand_test

@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "physics/capillary/droplets.h"
 
-namespace papilla::tests {
+namespace papilla::tests::rims_test {
 namespace {
 
 constexpr double kPatch = 12e-6, kDegree = kPi / 180;
@@ -180,4 +180,4 @@ TEST(Rims, DropsAtTheFootOfAWallCreepAwayBelow45Degrees) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::rims_test

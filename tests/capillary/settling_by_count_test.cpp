@@ -11,7 +11,7 @@
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/settling.h"
 
-namespace papilla::tests {
+namespace papilla::tests::settling_by_count_test {
 namespace {
 
 using namespace papilla::capillary;
@@ -254,4 +254,4 @@ TEST(SettlingByCount, AnEdgeLetsPassWhereTheGapIsNarrowEnough) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::settling_by_count_test

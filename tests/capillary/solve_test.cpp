@@ -8,7 +8,7 @@
 #include "geometry/io/files.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::solve_test {
 namespace {
 
 std::string output(const std::string& arguments, int& status) {
@@ -97,4 +97,4 @@ TEST(SolveDroplets, TakesGapAndWaterFromADesign) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::solve_test

@@ -18,7 +18,7 @@
 #include "physics/capillary/threshold.h"
 #include "physics/capillary/water.h"
 
-namespace papilla::tests {
+namespace papilla::tests::water_laws_test {
 namespace {
 
 using namespace papilla::capillary;
@@ -219,4 +219,4 @@ TEST(WaterLaws, AStatusHasItsWords) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::water_laws_test

@@ -16,7 +16,7 @@
 #include "physics/capillary/film.h"
 #include "physics/capillary/threshold.h"
 
-namespace papilla::tests {
+namespace papilla::tests::wetting_by_hand_test {
 namespace {
 
 using namespace papilla::capillary;
@@ -483,4 +483,4 @@ TEST(WettingByHand, TractionIsTheForceOverThePixelsOfEachBridge) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::wetting_by_hand_test

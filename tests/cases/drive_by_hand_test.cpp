@@ -13,7 +13,7 @@
 #include "cases/drive.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::drive_by_hand_test {
 namespace {
 
 const std::string kFingertip = PAPILLA_SOURCE_DIR "/designs/physics/fingertip_drive.toml";
@@ -318,4 +318,4 @@ TEST(DriveByHand, ACaseThatSaysNothingIsThePublishedFinger) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::drive_by_hand_test

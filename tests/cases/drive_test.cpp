@@ -14,7 +14,7 @@
 #include "report/drive.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::drive_test {
 namespace {
 
 const std::string kFingertip = PAPILLA_SOURCE_DIR "/designs/physics/fingertip_drive.toml";
@@ -357,4 +357,4 @@ TEST(DriveFile, TheNetworkOfADesignIsThatOfItsLayers) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::drive_test

@@ -13,7 +13,7 @@
 #include "geometry/io/files.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::given_gaps_test {
 namespace {
 
 DropletCase of_gap(const std::string& name, const std::vector<double>& z) {
@@ -118,4 +118,4 @@ TEST(GivenGaps, AnEnsembleHasTheScatterOfItsPlacements) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::given_gaps_test

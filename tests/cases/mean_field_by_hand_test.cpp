@@ -13,7 +13,7 @@
 #include "cases/persson.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::mean_field_by_hand_test {
 namespace {
 
 const std::string kWrist = PAPILLA_SOURCE_DIR "/designs/physics/wrist_on_glass.toml";
@@ -266,4 +266,4 @@ TEST(MeanFieldByHand, ACaseThatSaysNothingIsTheWristOfThePaper) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::mean_field_by_hand_test

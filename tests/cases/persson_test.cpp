@@ -12,7 +12,7 @@
 #include "design/design.h"
 #include "report/reference.h"
 
-namespace papilla::tests {
+namespace papilla::tests::persson_test {
 namespace {
 
 const std::string kWrist = PAPILLA_SOURCE_DIR "/designs/physics/wrist_on_glass.toml";
@@ -208,4 +208,4 @@ TEST(MeanFieldFile, EveryVoltageMeetsEveryLoad) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::persson_test

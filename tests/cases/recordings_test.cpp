@@ -12,7 +12,7 @@
 #include "cases/drive.h"
 #include "cases/recording.h"
 
-namespace papilla::tests {
+namespace papilla::tests::recordings_test {
 namespace {
 
 std::string refusal(const std::function<void()>& work) {
@@ -245,4 +245,4 @@ TEST(Recordings, ARenderedSwipeIsThatOfItsFinger) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::recordings_test

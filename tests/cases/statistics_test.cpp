@@ -10,7 +10,7 @@
 #include "report/contact_statistics.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::statistics_test {
 namespace {
 
 const std::string kCase = PAPILLA_SOURCE_DIR "/designs/physics/rough_contact.toml";
@@ -82,4 +82,4 @@ TEST(ContactStatistics, WhatMakesNoSenseIsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::statistics_test

@@ -15,7 +15,7 @@
 #include "published/targets.h"
 #include "published/whole_finger.h"
 
-namespace papilla::tests {
+namespace papilla::tests::figure_rows_test {
 namespace {
 
 const FigureOptions& few_pixels() {
@@ -261,4 +261,4 @@ TEST(WholeFinger, IsPrintedAsItsLawSays) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::figure_rows_test

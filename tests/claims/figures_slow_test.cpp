@@ -8,7 +8,7 @@
 #include "report/figures.h"
 #include "tests/claims/csv_rows.h"
 
-namespace papilla::tests {
+namespace papilla::tests::figures_slow_test {
 namespace {
 
 const FigureTables& tables() {
@@ -88,4 +88,4 @@ TEST(FiguresOfOneRun, PrintedNumbersStandBesideTheModels) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::figures_slow_test

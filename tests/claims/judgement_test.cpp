@@ -12,7 +12,7 @@
 #include "forward/forward.h"
 #include "forward/skips.h"
 
-namespace papilla::tests {
+namespace papilla::tests::judgement_test {
 namespace {
 
 SkinEstimate estimate(double value, double se, std::vector<double> single) {
@@ -205,4 +205,4 @@ TEST_F(OfFewSkins, TheCapillaryAreaIsThatOfAPatchWithoutWater) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::judgement_test

@@ -13,7 +13,7 @@
 #include "report/claims.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::kept_results_test {
 namespace {
 
 // That is there, with nothing in it yet.
@@ -117,4 +117,4 @@ TEST(Reproduce, AnInterruptedOneGoesOnWhereItStopped) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::kept_results_test

@@ -12,7 +12,7 @@
 #include "claims/papers.h"
 #include "tests/published/planted.h"
 
-namespace papilla::tests {
+namespace papilla::tests::planted_claims_test {
 namespace {
 
 class PlantedClaims : public ::testing::Test {
@@ -525,4 +525,4 @@ TEST_F(PlantedClaims, SofteningAloneIsToRaiseTheEffectAtEveryStep) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::planted_claims_test

@@ -11,7 +11,7 @@
 #include "claims/papers.h"
 #include "physics/persson/persson.h"
 
-namespace papilla::tests {
+namespace papilla::tests::planted_theory_test {
 namespace {
 
 // Every number of the paper's solid times a factor: pressures go with it.
@@ -129,4 +129,4 @@ TEST(PlantedTheory, AreasUnderVoltageAreThoseOfItsSkin) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::planted_theory_test

@@ -12,7 +12,7 @@
 #include "design/design.h"
 #include "report/predictions.h"
 
-namespace papilla::tests {
+namespace papilla::tests::predict_slow_test {
 namespace {
 
 const std::vector<Prediction>& few_skins() {
@@ -123,4 +123,4 @@ TEST(PredictionsOfOneRun, ReadBackFromTheirTables) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::predict_slow_test

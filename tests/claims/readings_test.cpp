@@ -10,7 +10,7 @@
 #include "claims/papers.h"
 #include "forward/forward.h"
 
-namespace papilla::tests {
+namespace papilla::tests::readings_test {
 namespace {
 
 class ReadingsOfFewSkins : public ::testing::Test {
@@ -274,4 +274,4 @@ TEST_F(ReadingsOfFewSkins, AreasGrowWithHumidityOnThePatchAndOnTheFinger) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::readings_test

@@ -14,7 +14,7 @@
 #include "report/claims.h"
 #include "tests/claims/csv_rows.h"
 
-namespace papilla::tests {
+namespace papilla::tests::reproduce_test {
 namespace {
 
 TEST(Reproduce, TheoryClaimsEndInTheirKnownVerdicts) {
@@ -98,4 +98,4 @@ TEST(Reproduce, TablesHaveARowAClaim) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::reproduce_test

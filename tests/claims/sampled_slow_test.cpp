@@ -13,7 +13,7 @@
 #include "design/design.h"
 #include "tests/claims/csv_rows.h"
 
-namespace papilla::tests {
+namespace papilla::tests::sampled_slow_test {
 namespace {
 
 // "M9: flat 15 to 35 % 0.302 ± 0.0072; ..." -> every number with its error.
@@ -75,4 +75,4 @@ TEST(Reproduce, FewerSkinsSayTheSameWithinTheirScatter) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::sampled_slow_test

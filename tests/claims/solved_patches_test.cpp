@@ -10,7 +10,7 @@
 #include "claims/papers.h"
 #include "tests/support/one_pass.h"
 
-namespace papilla::tests {
+namespace papilla::tests::solved_patches_test {
 namespace {
 
 Judgement judge(const std::string& id, double rms, double water) {
@@ -69,4 +69,4 @@ TEST(SolvedPatches, BridgesRarelySpanHolesBelowFivePercent) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::solved_patches_test

@@ -11,7 +11,7 @@
 #include "claims/papers.h"
 #include "tests/claims/csv_rows.h"
 
-namespace papilla::tests {
+namespace papilla::tests::theory_texts_test {
 namespace {
 
 // Up to the number that is rounding: "relative difference 2e-16", "gamma = 1/2: 1e-13".
@@ -42,4 +42,4 @@ TEST(TheoryTexts, AreThoseOfTheCommittedTable) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::theory_texts_test

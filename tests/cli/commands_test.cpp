@@ -9,7 +9,7 @@
 
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::commands_test {
 namespace {
 
 const std::string kSample = PAPILLA_SOURCE_DIR "/designs/m3_samples/a3h600.toml";
@@ -564,4 +564,4 @@ TEST(Reproduce, GivesTheDocumentedJsonAndTables) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::commands_test

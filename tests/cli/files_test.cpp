@@ -16,7 +16,7 @@
 #include "geometry/roughness.h"
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::files_test {
 namespace {
 
 const std::string kHoles = PAPILLA_SOURCE_DIR "/designs/m3_samples/a3h600.toml";
@@ -290,4 +290,4 @@ TEST(SurfaceCommand, GivesTheDocumentedJson) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::files_test

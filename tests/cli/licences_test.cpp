@@ -6,7 +6,7 @@
 
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::licences_test {
 namespace {
 
 class Licences : public ::testing::Test {
@@ -43,4 +43,4 @@ TEST_F(Licences, SayUnderWhichTermsTheBinaryIsPassedOn) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::licences_test

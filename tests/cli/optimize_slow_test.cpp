@@ -3,7 +3,7 @@
 
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::optimize_slow_test {
 namespace {
 
 const std::string kStudy = PAPILLA_TEST_DATA "/study/tiny.toml";
@@ -102,4 +102,4 @@ TEST(Optimize, AnInterruptEndsTidilyAndIsResumed) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::optimize_slow_test

@@ -8,7 +8,7 @@
 
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::strangers_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -168,4 +168,4 @@ TEST_F(Strangers, ATitleWithoutEndIsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::strangers_test

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::terminal_slow_test {
 namespace {
 
 TEST(AlignedTables, AreAsWideAsTheirCells) {
@@ -94,4 +94,4 @@ TEST(Colours, AreForTerminalsAndStopAtNoColor) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::terminal_slow_test

@@ -9,7 +9,7 @@
 
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::tutorial_slow_test {
 namespace {
 
 // A fenced block: ```toml NAME is a file, ```sh are commands, ```sh exit=2 ones that fail so, a
@@ -88,4 +88,4 @@ TEST(Tutorial, EveryBlockWorksAsWritten) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::tutorial_slow_test

@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::wrong_input_slow_test {
 namespace {
 
 struct WrongFile {
@@ -148,4 +148,4 @@ TEST(WrongCommandLine, IsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::wrong_input_slow_test

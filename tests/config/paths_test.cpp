@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "config/reader.h"
 
-namespace papilla::tests {
+namespace papilla::tests::paths_test {
 namespace {
 
 constexpr const char* kText =
@@ -63,4 +63,4 @@ TEST(Paths, OfOverridesReachItemsOrAreRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::paths_test

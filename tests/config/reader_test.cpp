@@ -14,7 +14,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::reader_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -754,4 +754,4 @@ TEST(Describe, EveryRowHasUnitRangeDefaultAndSource) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::reader_test

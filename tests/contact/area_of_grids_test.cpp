@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "physics/contact/contact.h"
 
-namespace papilla::tests {
+namespace papilla::tests::area_of_grids_test {
 namespace {
 
 constexpr double kStar = 12e6 / 0.75;
@@ -91,4 +91,4 @@ TEST(AreaShapes, OfNothingAndOfAllHaveNoEdge) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::area_of_grids_test

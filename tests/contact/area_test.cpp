@@ -14,7 +14,7 @@
 #include "scene/finger.h"
 #include "tests/support/one_pass.h"
 
-namespace papilla::tests {
+namespace papilla::tests::area_test {
 namespace {
 
 TEST(Area, OfASphereIsHertzsWhereverItLiesBetweenThePixels) {
@@ -153,4 +153,4 @@ TEST(Area, OfALayerThinnerThanAPixelIsThatOfTheBulk) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::area_test

@@ -10,7 +10,7 @@
 #include "physics/contact/closed_forms.h"
 #include "physics/contact/contact.h"
 
-namespace papilla::tests {
+namespace papilla::tests::closed_form_values_test {
 namespace {
 
 double relative(double a, double b) { return std::abs(a / b - 1); }
@@ -145,4 +145,4 @@ TEST(EggBox, LiesHalfWayBetweenItsKnots) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::closed_form_values_test

@@ -9,7 +9,7 @@
 #include "base/constants.h"
 #include "physics/contact/contact.h"
 
-namespace papilla::tests {
+namespace papilla::tests::closed_forms_test {
 namespace {
 
 const LayeredSolid kHalfSpace{1e6, 0, 0, 1e6, 0};
@@ -215,4 +215,4 @@ TEST(ClosedForms, ACounterBodyAddsTheComplianceOfItsHalfSpace) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::closed_forms_test

@@ -12,7 +12,7 @@
 #include "geometry/roughness.h"
 #include "physics/contact/facts.h"
 
-namespace papilla::tests {
+namespace papilla::tests::contact_test {
 namespace {
 
 const LayeredSolid kHalfSpace{1e6, 0, 0, 1e6, 0};
@@ -332,4 +332,4 @@ TEST(Contact, WithoutALoadItIsSaidWhatLifts) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::contact_test

@@ -9,7 +9,7 @@
 #include "geometry/roughness.h"
 #include "physics/contact/contact.h"
 
-namespace papilla::tests {
+namespace papilla::tests::dense_costs_test {
 namespace {
 
 // Light to nearly full contact, free, below a cap and by its approach, with and without a coarser
@@ -47,4 +47,4 @@ TEST(DenseCosts, AreTheStepsThatTheConstantsWereChosenBy) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::dense_costs_test

@@ -14,7 +14,7 @@
 #include "physics/contact/dense_whole.h"
 #include "physics/contact/solvers.h"
 
-namespace papilla::tests {
+namespace papilla::tests::dense_steps_test {
 namespace {
 
 using namespace papilla::contact;
@@ -526,4 +526,4 @@ TEST(DenseFields, TheLevelLiesBetweenTheCappedAndTheFree) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::dense_steps_test

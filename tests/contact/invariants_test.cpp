@@ -13,7 +13,7 @@
 #include "geometry/roughness.h"
 #include "physics/contact/contact.h"
 
-namespace papilla::tests {
+namespace papilla::tests::invariants_test {
 namespace {
 
 const LayeredSolid kSkin{60e6, 0.45, 1e-6, 20e6, 0.49};
@@ -310,4 +310,4 @@ TEST(AreaEstimators, OfFewPixelsAreCountedByHand) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::invariants_test

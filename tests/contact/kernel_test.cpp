@@ -14,7 +14,7 @@
 #include "numerics/convolution.h"
 #include "physics/contact/contact.h"
 
-namespace papilla::tests {
+namespace papilla::tests::kernel_test {
 namespace {
 
 const LayeredSolid kSolid{5e6, 0.3, 1e-7, 1e6, 0.45};
@@ -226,4 +226,4 @@ TEST(Compliance, OfACounterBodyIsThatOfAFilmOnARigidOne) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::kernel_test

@@ -14,7 +14,7 @@
 #include "physics/contact/facts.h"
 #include "physics/contact/solvers.h"
 
-namespace papilla::tests {
+namespace papilla::tests::outcomes_test {
 namespace {
 
 using namespace papilla::contact;
@@ -282,4 +282,4 @@ TEST(ContactOutcome, OfHeightsFarFromZeroIsMeasuredByTheirDeviation) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::outcomes_test

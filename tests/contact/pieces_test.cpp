@@ -15,7 +15,7 @@
 #include "physics/contact/dense_fields.h"
 #include "physics/contact/solvers.h"
 
-namespace papilla::tests {
+namespace papilla::tests::pieces_test {
 namespace {
 
 using namespace papilla::contact;
@@ -377,4 +377,4 @@ TEST(Candidates, OfALargeGridAreTheLowestOfAll) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::pieces_test

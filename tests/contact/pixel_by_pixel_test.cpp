@@ -13,7 +13,7 @@
 #include "physics/contact/solvers.h"
 #include "tests/numerics/both_ways.h"
 
-namespace papilla::tests {
+namespace papilla::tests::pixel_by_pixel_test {
 namespace {
 
 using namespace papilla::contact;
@@ -198,4 +198,4 @@ TEST(PixelByPixel, SolutionsAndAreasAreTheSame) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::pixel_by_pixel_test

@@ -8,7 +8,7 @@
 #include "geometry/roughness.h"
 #include "physics/contact/contact.h"
 
-namespace papilla::tests {
+namespace papilla::tests::solvers_test {
 namespace {
 
 // The paper's uniform preload: light contact, 2-4e-4 of the patch.
@@ -288,4 +288,4 @@ TEST(Hardness, ASoftSurfaceFlowsUntilItsAreaCarriesTheLoad) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::solvers_test

@@ -11,7 +11,7 @@
 #include "physics/contact/contact.h"
 #include "physics/contact/solvers.h"
 
-namespace papilla::tests {
+namespace papilla::tests::sparse_costs_test {
 namespace {
 
 const LayeredSolid kSolid{3e6, 0.4, 3e-7, 1e6, 0.45};
@@ -190,4 +190,4 @@ TEST(SparseCosts, WithoutACoarserGridTheStartsPressuresAreGoneOnFrom) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::sparse_costs_test

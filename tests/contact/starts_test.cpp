@@ -8,7 +8,7 @@
 #include "physics/contact/candidates.h"
 #include "physics/contact/solvers.h"
 
-namespace papilla::tests {
+namespace papilla::tests::starts_test {
 namespace {
 
 using namespace papilla::contact;
@@ -162,4 +162,4 @@ TEST(Kernel, TheInfluenceBeyondIsTheLargestFarAway) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::starts_test

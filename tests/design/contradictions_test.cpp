@@ -10,7 +10,7 @@
 #include "design/design.h"
 #include "design/study.h"
 
-namespace papilla::tests {
+namespace papilla::tests::contradictions_test {
 namespace {
 
 // A line each; "" for a sound design.
@@ -395,4 +395,4 @@ TEST(Contradictions, MoreDropletsThanCanBeSettledAreRefusedBeforeTheWork) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::contradictions_test

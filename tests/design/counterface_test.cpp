@@ -5,7 +5,7 @@
 #include "design/study.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::counterface_test {
 namespace {
 
 const std::string kHead = "schema_version = 1\n[texture]\ntype = \"flat\"\n";
@@ -65,4 +65,4 @@ TEST(CounterfaceFile, ARelaxationThatContradictsIsNamed) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::counterface_test

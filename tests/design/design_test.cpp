@@ -11,7 +11,7 @@
 #include "report/reference.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::design_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -431,4 +431,4 @@ TEST(Keys, OfStudiesAreThoseOfTheReference) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::design_test

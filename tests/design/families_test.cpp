@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "search/problem.h"
 
-namespace papilla::tests {
+namespace papilla::tests::families_test {
 namespace {
 
 Study family_study() {
@@ -139,4 +139,4 @@ TEST(Parts, AreFoundByTheirNumberAndWhatIsNoneIsTheWhole) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::families_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace papilla::tests {
+namespace papilla::tests::scans_test {
 namespace {
 
 TEST(DesignScans, APartThatAloneIsTakenIsSaid) {
@@ -39,4 +39,4 @@ TEST(DesignScans, AreThoseOfTheTextureAndOfTheSkin) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::scans_test

@@ -5,7 +5,7 @@
 #include "design/scans.h"
 #include "design/study.h"
 
-namespace papilla::tests {
+namespace papilla::tests::taken_parts_test {
 namespace {
 
 bool says_part(double width, double height, double taken) {
@@ -63,4 +63,4 @@ TEST(Members, AreFoundByTheirPathsAndErasedByThem) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::taken_parts_test

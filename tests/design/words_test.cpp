@@ -9,7 +9,7 @@
 #include "report/reference.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::words_test {
 namespace {
 
 TEST(Words, EachStandsForAKeyOfTheReference) {
@@ -116,4 +116,4 @@ TEST(Base, AVariableOfAnotherKindBesideTheKindIsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::words_test

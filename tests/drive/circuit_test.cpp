@@ -11,7 +11,7 @@
 #include "physics/drive/signal.h"
 #include "physics/drive/stiction.h"
 
-namespace papilla::tests {
+namespace papilla::tests::circuit_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -385,4 +385,4 @@ TEST(Rubbing, BackwardsTheFrictionBuildsUpAgain) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::circuit_test

@@ -12,7 +12,7 @@
 #include "physics/drive/signal.h"
 #include "physics/drive/stiction.h"
 
-namespace papilla::tests {
+namespace papilla::tests::drive_test {
 namespace {
 
 std::vector<std::vector<double>> table(const std::string& name) {
@@ -355,4 +355,4 @@ TEST(LowPass, PassesWhatIsSlow) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::drive_test

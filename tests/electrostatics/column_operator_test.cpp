@@ -10,7 +10,7 @@
 
 #include "base/random.h"
 
-namespace papilla::tests {
+namespace papilla::tests::column_operator_test {
 namespace {
 
 using Matrix = std::vector<std::vector<double>>;
@@ -283,4 +283,4 @@ TEST(ColumnMultigrid, IsSymmetricAndPositive) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::column_operator_test

@@ -17,7 +17,7 @@
 #include "physics/electrostatics/screening.h"
 #include "tests/electrostatics/oxide.h"
 
-namespace papilla::tests {
+namespace papilla::tests::column_pull_test {
 namespace {
 
 // 11 pixels: a whole register and three more.
@@ -318,4 +318,4 @@ TEST(Breakdown, TheMarginIsThatOfTheWeakestLayer) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::column_pull_test

@@ -11,7 +11,7 @@
 #include "base/random.h"
 #include "physics/electrostatics/field_columns.h"
 
-namespace papilla::tests {
+namespace papilla::tests::dense_potential_test {
 namespace {
 
 // Rough bodies of few columns with all that a column can have: film, droplets, bridges, a layer.
@@ -249,4 +249,4 @@ TEST(DensePotential, TheResidualIsTheErrorInEnergyNorm) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::dense_potential_test

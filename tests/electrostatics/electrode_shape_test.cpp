@@ -9,7 +9,7 @@
 #include "base/random.h"
 #include "physics/electrostatics/electrode.h"
 
-namespace papilla::tests {
+namespace papilla::tests::electrode_shape_test {
 namespace {
 
 // Steps and slopes on oblong pixels, with one far lower and one far higher pixel at the seams.
@@ -162,4 +162,4 @@ TEST(ElectrodeShape, TheLayersOfAFinishAreThoseOfItsProcess) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::electrode_shape_test

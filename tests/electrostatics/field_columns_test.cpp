@@ -10,7 +10,7 @@
 
 #include "base/random.h"
 
-namespace papilla::tests {
+namespace papilla::tests::field_columns_test {
 namespace {
 
 constexpr double kNano = 1e-9;
@@ -307,4 +307,4 @@ TEST(Exchanges, OfAnyColumnsAreThoseOfEveryHeight) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::field_columns_test

@@ -14,7 +14,7 @@
 #include "tests/electrostatics/oxide.h"
 #include "tests/electrostatics/table.h"
 
-namespace papilla::tests {
+namespace papilla::tests::field_test {
 namespace {
 
 Wetting bridge_at_centre(const Gap& gap, double radius) {
@@ -531,4 +531,4 @@ TEST(Electrowetting, TheCycleMeanOfTheSaturatedLawIsBelowTheLawAtTheRmsVoltage) 
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::field_test

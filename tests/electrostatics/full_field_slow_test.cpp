@@ -6,7 +6,7 @@
 #include "physics/electrostatics/full_field.h"
 #include "tests/electrostatics/table.h"
 
-namespace papilla::tests {
+namespace papilla::tests::full_field_slow_test {
 namespace {
 
 // Mean of the squared field on the skin [1/m^2].
@@ -85,4 +85,4 @@ TEST(FullField, HoleArraysMatchFiniteVolumes) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::full_field_slow_test

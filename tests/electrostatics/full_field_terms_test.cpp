@@ -12,7 +12,7 @@
 #include "physics/electrostatics/breakdown.h"
 #include "physics/electrostatics/full_field.h"
 
-namespace papilla::tests {
+namespace papilla::tests::full_field_terms_test {
 namespace {
 
 constexpr Grid kGrid{18, 14, 1.8e-6, 1.6e-6};
@@ -291,4 +291,4 @@ TEST(FullFieldTerms, ALayerThickerThanATenthOfThePatchIsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::full_field_terms_test

@@ -8,7 +8,7 @@
 #include "physics/electrostatics/field.h"
 #include "tests/electrostatics/table.h"
 
-namespace papilla::tests {
+namespace papilla::tests::full_field_test {
 namespace {
 
 // Mean of the squared field on the skin [1/m^2].
@@ -283,4 +283,4 @@ TEST(FullField, TheStatedEdgeRadiusRaisesTheFieldInTheDielectricBehindWalls) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::full_field_test

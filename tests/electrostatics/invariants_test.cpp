@@ -18,7 +18,7 @@
 #include "physics/electrostatics/screening.h"
 #include "scene/finger.h"
 
-namespace papilla::tests {
+namespace papilla::tests::invariants_test {
 namespace {
 
 constexpr Grid kGrid{48, 32, 4.8e-6, 3.5e-6};
@@ -317,4 +317,4 @@ TEST(FieldInvariants, UpsideDownTheCapacitanceIsTheSame) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::invariants_test

@@ -9,7 +9,7 @@
 #include "tests/electrostatics/oxide.h"
 #include "tests/electrostatics/table.h"
 
-namespace papilla::tests {
+namespace papilla::tests::local_field_slow_test {
 namespace {
 
 // Hole arrays of 6 um period against the finite-volume solution of their equivalent cell: the rule
@@ -49,4 +49,4 @@ TEST(LocalField, HoleArraysAreWithinTheStatedErrorOfTheStepRule) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::local_field_slow_test

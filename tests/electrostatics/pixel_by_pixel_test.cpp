@@ -11,7 +11,7 @@
 #include "tests/electrostatics/oxide.h"
 #include "tests/numerics/both_ways.h"
 
-namespace papilla::tests {
+namespace papilla::tests::pixel_by_pixel_test {
 namespace {
 
 // A loop over its pixels ends within a vector; rows are neither whole vectors.
@@ -106,4 +106,4 @@ TEST(PixelByPixel, FilmsBelowATextureAreTheSame) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::pixel_by_pixel_test

@@ -6,7 +6,7 @@
 #include "base/constants.h"
 #include "physics/electrostatics/field.h"
 
-namespace papilla::tests {
+namespace papilla::tests::saturation_test {
 namespace {
 
 constexpr double kFilm = 0.4e-6, kHeld = 100e6;  // d/eps [m], field in the air [V/m]
@@ -68,4 +68,4 @@ TEST(Saturation, ARoughGapFollowsTheIntegralOverItsGaps) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::saturation_test

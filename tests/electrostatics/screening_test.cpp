@@ -10,7 +10,7 @@
 #include "base/constants.h"
 #include "base/random.h"
 
-namespace papilla::tests {
+namespace papilla::tests::screening_test {
 namespace {
 
 // To the nearest wet pixel of the periodic patch [m].
@@ -57,4 +57,4 @@ TEST(AirScreening, IsThatOfTheNearestWetPixelHoweverFar) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::screening_test

@@ -9,7 +9,7 @@
 #include "base/random.h"
 #include "physics/electrostatics/screening.h"
 
-namespace papilla::tests {
+namespace papilla::tests::screening_window_test {
 namespace {
 
 // L/g of Eq. electrostatics.3 at x = d/g and i = g/a, both as it holds them.
@@ -197,4 +197,4 @@ TEST(ScreeningWindow, FilmAndWhatIsOnItsWayFadeByTheirOwnPixels) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::screening_window_test

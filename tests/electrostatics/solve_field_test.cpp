@@ -7,7 +7,7 @@
 #include "geometry/io/files.h"
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::solve_field_test {
 namespace {
 
 TEST(SolveField, AFlatGapIsTheSeriesCapacitor) {
@@ -28,4 +28,4 @@ TEST(SolveField, AFlatGapIsTheSeriesCapacitor) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::solve_field_test

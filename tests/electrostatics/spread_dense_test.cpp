@@ -10,7 +10,7 @@
 #include "physics/electrostatics/field.h"
 #include "physics/electrostatics/screening.h"
 
-namespace papilla::tests {
+namespace papilla::tests::spread_dense_test {
 namespace {
 
 // K of Eq. electrostatics.16 between pixels: eps q coth(q d), eps/d at q = 0, summed over waves.
@@ -320,4 +320,4 @@ TEST(SpreadDense, IsTheLocalRuleWhereNothingSpreads) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::spread_dense_test

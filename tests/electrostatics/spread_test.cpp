@@ -8,7 +8,7 @@
 #include "physics/electrostatics/full_field.h"
 #include "physics/electrostatics/screening.h"
 
-namespace papilla::tests {
+namespace papilla::tests::spread_test {
 namespace {
 
 FieldProblem glass() {
@@ -188,4 +188,4 @@ TEST(SpreadField, ABareElectrodeInContactIsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::spread_test

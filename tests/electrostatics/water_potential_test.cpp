@@ -16,7 +16,7 @@
 #include "tests/electrostatics/oxide.h"
 #include "tests/electrostatics/straight_bridge.h"
 
-namespace papilla::tests {
+namespace papilla::tests::water_potential_test {
 namespace {
 
 constexpr double kSkin = 24e-9, kPatch = 12e-6;
@@ -310,4 +310,4 @@ TEST(WaterPotential, ThePeakFieldOfTheDielectricHasALimitOnFinerGrids) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::water_potential_test

@@ -13,7 +13,7 @@
 #include "report/response.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::belief_test {
 namespace {
 
 std::string write(const std::string& name, const std::string& text) {
@@ -169,4 +169,4 @@ set = { "model.air_limit" = "emission" }
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::belief_test

@@ -10,7 +10,7 @@
 #include "estimate/evaluation.h"
 #include "forward/forward.h"
 
-namespace papilla::tests {
+namespace papilla::tests::difference_test {
 namespace {
 
 Response with_friction(double dry, double wet, double error) {
@@ -129,4 +129,4 @@ TEST(Evaluation, GivesWhatADesignOrItsOptionsAskFor) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::difference_test

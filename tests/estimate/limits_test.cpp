@@ -11,7 +11,7 @@
 #include "forward/undriven.h"
 #include "metrics/metrics.h"
 
-namespace papilla::tests {
+namespace papilla::tests::limits_test {
 namespace {
 
 TEST(Limits, ABridgePutsAllOfTheVoltageOnTheFilm) {
@@ -238,4 +238,4 @@ TEST(VoltageErrors, AreHalfThoseOfTheModulation) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::limits_test

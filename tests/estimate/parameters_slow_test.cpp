@@ -10,7 +10,7 @@
 #include "estimate/parameters.h"
 #include "metrics/metrics.h"
 
-namespace papilla::tests {
+namespace papilla::tests::parameters_slow_test {
 namespace {
 
 TEST(ParametersSlow, OfTheReferenceFingerEqualDrawsFromItsCovariance) {
@@ -57,4 +57,4 @@ TEST(ParametersSlow, OfTheReferenceFingerEqualDrawsFromItsCovariance) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::parameters_slow_test

@@ -10,7 +10,7 @@
 #include "design/design.h"
 #include "metrics/metrics.h"
 
-namespace papilla::tests {
+namespace papilla::tests::parameters_test {
 namespace {
 
 Response of_modulation(const std::vector<double>& values) {
@@ -110,4 +110,4 @@ TEST(Parameters, AFingerOfUnknownUncertaintySaysSo) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::parameters_test

@@ -11,7 +11,7 @@
 #include "geometry/texture.h"
 #include "metrics/metrics.h"
 
-namespace papilla::tests {
+namespace papilla::tests::plans_test {
 namespace {
 
 Scene dry() {
@@ -210,4 +210,4 @@ TEST(Plans, CostsAreThoseOfAllSteps) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::plans_test

@@ -9,7 +9,7 @@
 #include "estimate/parameters.h"
 #include "forward/forward.h"
 
-namespace papilla::tests {
+namespace papilla::tests::steps_test {
 namespace {
 
 Design holes(double period, double diameter) {
@@ -167,4 +167,4 @@ TEST(Evaluation, AModelThatTheFingerWasNotFittedWithIsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::steps_test

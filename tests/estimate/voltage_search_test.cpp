@@ -8,7 +8,7 @@
 #include "forward/undriven.h"
 #include "tests/support/one_pass.h"
 
-namespace papilla::tests {
+namespace papilla::tests::voltage_search_test {
 namespace {
 
 Fidelity tiny() {
@@ -162,4 +162,4 @@ TEST(VoltageSearch, ByAreasBeginsWhereTheLoadLawEnds) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::voltage_search_test

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "metrics/metrics.h"
 
-namespace papilla::tests {
+namespace papilla::tests::voltage_test {
 namespace {
 
 Scene scene_at(double humidity) {
@@ -134,4 +134,4 @@ TEST(VoltageFor, IsAMetric) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::voltage_test

@@ -14,7 +14,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::chosen_files_test {
 namespace {
 
 std::string names(const Texture& texture, const ExportOptions& options) {
@@ -212,4 +212,4 @@ TEST(Exports, OfMoreHeightsThanTheMemoryHoldsAreRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::chosen_files_test

@@ -12,7 +12,7 @@
 #include "geometry/io/mask.h"
 #include "geometry/texture.h"
 
-namespace papilla::tests {
+namespace papilla::tests::compensation_test {
 namespace {
 
 // Share of the patch that lies below half the depth; with the walls moved by `growth` into what is
@@ -56,4 +56,4 @@ TEST(Compensation, PillarsAreDrawnNarrowerByBothTheirSides) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::compensation_test

@@ -16,7 +16,7 @@
 #include "tests/fabricate/exported_folder.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::drawn_test {
 namespace {
 
 HoleArray holes_of(double period, double diameter) {
@@ -347,4 +347,4 @@ TEST(Differences, AreShownToTheDigitWhereTheyAre) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::drawn_test

@@ -16,7 +16,7 @@
 #include "geometry/io/layout.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::heights_judged_test {
 namespace {
 
 constexpr Grid kGrid{10, 10, 10e-6, 10e-6};  // pixels of 1 um
@@ -319,4 +319,4 @@ TEST(JudgedHeights, OfFeaturesThatAreFinerThanPixelsNoMapIsSound) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::heights_judged_test

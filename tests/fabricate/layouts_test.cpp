@@ -9,7 +9,7 @@
 #include "geometry/io/drawing.h"
 #include "tests/fabricate/exported_folder.h"
 
-namespace papilla::tests {
+namespace papilla::tests::layouts_test {
 namespace {
 
 std::string faults_of(const Folder& folder, const std::string& name) {
@@ -188,4 +188,4 @@ TEST(ChangedBodies, AreSaidByTheirVolumeAndSides) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::layouts_test

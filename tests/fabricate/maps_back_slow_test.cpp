@@ -18,7 +18,7 @@
 #include "report/export.h"
 #include "tests/fabricate/exported_folder.h"
 
-namespace papilla::tests {
+namespace papilla::tests::maps_back_slow_test {
 namespace {
 
 constexpr int kDrawn = 32;  // eight kinds under four films
@@ -146,4 +146,4 @@ TEST(MapsBack, OfEveryStudyInTheDesignsFolderAreSound) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::maps_back_slow_test

@@ -11,7 +11,7 @@
 #include "fabricate/export.h"
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::masks_test {
 namespace {
 
 TEST(MaskShows, TexturesWithEdgesOnPixelsThatAreNoWiderThanHalfOfThem) {
@@ -72,4 +72,4 @@ TEST(Progress, NamesEveryFileAndTheShareOfARepeatedOne) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::masks_test

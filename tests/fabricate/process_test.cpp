@@ -8,7 +8,7 @@
 #include "fabricate/made.h"
 #include "fabricate/wafer_drawing.h"
 
-namespace papilla::tests {
+namespace papilla::tests::process_test {
 namespace {
 
 HoleArray holes() {
@@ -148,4 +148,4 @@ TEST(Compensation, RefusesFeaturesThatNoMaskMakes) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::process_test

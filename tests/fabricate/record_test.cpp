@@ -13,7 +13,7 @@
 #include "design/study.h"
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::record_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -209,4 +209,4 @@ TEST(RecordOf, AStudyKeepsTheLimitsOfWidths) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::record_test

@@ -17,7 +17,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::shapes_judged_test {
 namespace {
 
 // What is said of a layout by either of its files.
@@ -353,4 +353,4 @@ TEST_F(JudgedBody, ItsTrianglesAndVolumeAreCounted) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::shapes_judged_test

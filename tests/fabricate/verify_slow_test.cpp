@@ -4,7 +4,7 @@
 #include "geometry/io/layout.h"
 #include "tests/fabricate/exported_folder.h"
 
-namespace papilla::tests {
+namespace papilla::tests::verify_slow_test {
 namespace {
 
 bool is_layout(const std::string& format) { return format == "gds" || format == "oasis"; }
@@ -113,4 +113,4 @@ TEST(Verify, NamesEachOf200CorruptedFilesAndNoOther) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::verify_slow_test

@@ -14,7 +14,7 @@
 #include "tests/fabricate/exported_folder.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::verify_test {
 namespace {
 
 // What a fault says: a number a maker can act on.
@@ -267,4 +267,4 @@ TEST(Verify, TheMapOfALatticeIsJudgedOnThePatchOfItsDesign) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::verify_test

@@ -9,7 +9,7 @@
 #include "fabricate/wafer_files.h"
 #include "tests/fabricate/wafer_list.h"
 
-namespace papilla::tests {
+namespace papilla::tests::wafer_klayout_slow_test {
 namespace {
 
 TEST(KlayoutWafer, HasItsLabelsSizesHierarchyAndTheSamePolygonsInBothFiles) {
@@ -95,4 +95,4 @@ TEST(KlayoutWafer, WritesWordsThatAPersonReads) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::wafer_klayout_slow_test

@@ -14,7 +14,7 @@
 #include "tests/fabricate/wafer_list.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::wafer_test {
 namespace {
 
 class Wafer {
@@ -238,4 +238,4 @@ TEST(Wafer, RefusesWhatHasNoMaskWithTheWayOut) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::wafer_test

@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "tests/support/glass.h"
 
-namespace papilla::tests {
+namespace papilla::tests::appearance_test {
 namespace {
 
 constexpr double kIndex = 1.46;
@@ -105,4 +105,4 @@ TEST(Appearance, WarnsWhereTheScreenIsRough) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::appearance_test

@@ -10,7 +10,7 @@
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"
 
-namespace papilla::tests {
+namespace papilla::tests::attractions_test {
 namespace {
 
 TEST(Attraction, VanDerWaalsFallsWithTheCubeOfTheGapAndStopsInContact) {
@@ -105,4 +105,4 @@ TEST(WaterBand, OfThresholdWaterIsWhatItFallsShortOfDroplets) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::attractions_test

@@ -20,7 +20,7 @@
 #include "physics/contact/contact.h"
 #include "tests/support/one_pass.h"
 
-namespace papilla::tests {
+namespace papilla::tests::balance_test {
 namespace {
 
 constexpr double kHumidity = 0.55;
@@ -378,4 +378,4 @@ TEST(Balance, TheLoadLawCountsTheOpenGapsInProportion) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::balance_test

@@ -9,7 +9,7 @@
 #include "forward/scale_bridge.h"
 #include "geometry/grid.h"
 
-namespace papilla::tests {
+namespace papilla::tests::closure_shares_test {
 namespace {
 
 const Grid kGrid{64, 64, 12e-6, 12e-6};
@@ -107,4 +107,4 @@ TEST(ClosureShares, TheOverLimitShareIsOfThePullOfAllPatches) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::closure_shares_test

@@ -9,7 +9,7 @@
 #include "forward/scale_bridge.h"
 #include "forward/scene_terms.h"
 
-namespace papilla::tests {
+namespace papilla::tests::compliant_body_test {
 namespace {
 
 constexpr double kHumidity = 0.55;
@@ -123,4 +123,4 @@ TEST(ParticleFilm, ItsFrictionCoefficientIsOneOfFilmsFromFiveHundredthsToTwoNewt
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::compliant_body_test

@@ -12,7 +12,7 @@
 #include "forward/scene_terms.h"
 #include "physics/electrostatics/full_field.h"
 
-namespace papilla::tests {
+namespace papilla::tests::control_runs_test {
 namespace {
 
 struct Controlled {
@@ -291,4 +291,4 @@ TEST(ControlRunLaws, AnAnswerBeforeItIsAskedIsNothing) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::control_runs_test

@@ -12,7 +12,7 @@
 #include "forward/scene_terms.h"
 #include "physics/contact/closed_forms.h"
 
-namespace papilla::tests {
+namespace papilla::tests::counterface_test {
 namespace {
 
 Pin polymer() {
@@ -182,4 +182,4 @@ TEST(PinCounterface, AContactOfLessThanAPatchIsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::counterface_test

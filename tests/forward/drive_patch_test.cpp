@@ -15,7 +15,7 @@
 #include "physics/capillary/droplets.h"
 #include "physics/electrostatics/breakdown.h"
 
-namespace papilla::tests {
+namespace papilla::tests::drive_patch_test {
 namespace {
 
 constexpr double kHumidity = 0.6, kPressure = 4e5;
@@ -364,4 +364,4 @@ TEST(DrivePatch, AFloodHasNoMeniscus) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::drive_patch_test

@@ -15,7 +15,7 @@
 #include "forward/patch_setup.h"
 #include "tests/support/glass.h"
 
-namespace papilla::tests {
+namespace papilla::tests::driven_points_test {
 namespace {
 
 Fidelity small(Estimator estimator) {
@@ -185,4 +185,4 @@ TEST(LooksLaws, OfNoReliefIsAFlatPlate) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::driven_points_test

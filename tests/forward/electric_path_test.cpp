@@ -13,7 +13,7 @@
 #include "physics/drive/network.h"
 #include "physics/macro/fingertip.h"
 
-namespace papilla::tests {
+namespace papilla::tests::electric_path_test {
 namespace {
 
 constexpr double kHumidity = 0.55, kGap = 0.4e-6, kArea = 3e-6;
@@ -290,4 +290,4 @@ TEST(ElectricPath, TheVoltageOfACurrentFallsWithFrequencyForEveryExponent) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::electric_path_test

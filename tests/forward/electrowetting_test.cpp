@@ -6,7 +6,7 @@
 #include "base/constants.h"
 #include "forward/scene_terms.h"
 
-namespace papilla::tests {
+namespace papilla::tests::electrowetting_test {
 namespace {
 
 // Far below saturation the angle is Lippmann's at the mean square of the voltage:
@@ -48,4 +48,4 @@ TEST(DrivenAngle, GrowsWithTheSquareOfTheVoltageAndIsRestAtNone) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::electrowetting_test

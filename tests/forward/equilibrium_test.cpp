@@ -8,7 +8,7 @@
 
 #include "base/constants.h"
 
-namespace papilla::tests {
+namespace papilla::tests::equilibrium_test {
 namespace {
 
 using forward::EquilibriumSearch;
@@ -96,4 +96,4 @@ TEST(EquilibriumSearch, TakesWaterThatPushes) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::equilibrium_test

@@ -16,7 +16,7 @@
 #include "numerics/statistics.h"
 #include "physics/electrostatics/full_field.h"
 
-namespace papilla::tests {
+namespace papilla::tests::error_laws_test {
 namespace {
 
 using Member = Measured PointQuantities::*;
@@ -353,4 +353,4 @@ TEST(SkipLaws, PullInHasNoBound) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::error_laws_test

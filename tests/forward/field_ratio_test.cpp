@@ -11,7 +11,7 @@
 #include "forward/scene_terms.h"
 #include "physics/electrostatics/full_field.h"
 
-namespace papilla::tests {
+namespace papilla::tests::field_ratio_test {
 namespace {
 
 // Deep square holes in a planar film, where the rule is a third and more above the 3-D field.
@@ -157,4 +157,4 @@ TEST(FieldRatio, TheModulationHasNoStepAtAnySlopeOfTheWalls) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::field_ratio_test

@@ -9,7 +9,7 @@
 #include "forward/fidelity.h"
 #include "forward/forward.h"
 
-namespace papilla::tests {
+namespace papilla::tests::finger_states_test {
 namespace {
 
 ResponsePoint rubbed(const std::string& sample, std::vector<std::string> with,
@@ -72,4 +72,4 @@ TEST(Occlusion, MakesACleanFingerRubMoreWithEverySecondUntilItIsSaturated) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::finger_states_test

@@ -13,7 +13,7 @@
 #include "tests/support/one_pass.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::forward_test {
 namespace {
 
 Scene driven_scene() {
@@ -453,4 +453,4 @@ TEST(Response, TheTroubleOfEveryHumidityIsTold) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::forward_test

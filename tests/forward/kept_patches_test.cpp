@@ -12,7 +12,7 @@
 #include "design/design.h"
 #include "forward/forward.h"
 
-namespace papilla::tests {
+namespace papilla::tests::kept_patches_test {
 namespace {
 
 Fidelity small() {
@@ -99,4 +99,4 @@ TEST(KeptPatches, AStoppedRunLeavesNothingBehind) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::kept_patches_test

@@ -5,7 +5,7 @@
 
 #include "forward/response.h"
 
-namespace papilla::tests {
+namespace papilla::tests::patch_result_test {
 namespace {
 
 // Every member another number, by its place in the table.
@@ -62,4 +62,4 @@ TEST(PatchMembers, OfPatchPressuresAreWeightedByTheirShares) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::patch_result_test

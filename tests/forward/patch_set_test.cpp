@@ -7,7 +7,7 @@
 
 #include "forward/forward.h"
 
-namespace papilla::tests {
+namespace papilla::tests::patch_set_test {
 namespace {
 
 struct Solved {
@@ -104,4 +104,4 @@ TEST(PatchSet, MeasuredErrorsAreSharesOfTheNumbersOfTheirHumidity) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::patch_set_test

@@ -18,7 +18,7 @@
 #include "physics/electrostatics/full_field.h"
 #include "physics/electrostatics/rules.h"
 
-namespace papilla::tests {
+namespace papilla::tests::plan_pieces_test {
 namespace {
 
 struct Line {
@@ -512,4 +512,4 @@ TEST(PatchSetupLaws, HeightsAddUpAndACutFilmIsSaidUnderVoltage) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::plan_pieces_test

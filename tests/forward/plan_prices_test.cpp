@@ -10,7 +10,7 @@
 #include "forward/electric_path.h"
 #include "forward/forward.h"
 
-namespace papilla::tests {
+namespace papilla::tests::plan_prices_test {
 namespace {
 
 Scene driven() {
@@ -258,4 +258,4 @@ TEST(TargetReport, SaysWhichPartIsLeftAndTheLimits) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::plan_prices_test

@@ -9,7 +9,7 @@
 #include "forward/scene_terms.h"
 #include "physics/contact/facts.h"
 
-namespace papilla::tests {
+namespace papilla::tests::point_test {
 namespace {
 
 // Three skins; every number of one is proportional to the same share.
@@ -223,4 +223,4 @@ TEST(Point, WaterBeyondItsFitAndWaterWithoutRoomAreSaid) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::point_test

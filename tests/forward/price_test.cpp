@@ -6,7 +6,7 @@
 
 #include "forward/forward.h"
 
-namespace papilla::tests {
+namespace papilla::tests::price_test {
 namespace {
 
 Fidelity small() {
@@ -63,4 +63,4 @@ TEST(Price, LeavesTheAnswersAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::price_test

@@ -5,7 +5,7 @@
 #include "forward/forward.h"
 #include "forward/scene_terms.h"
 
-namespace papilla::tests {
+namespace papilla::tests::published_preset_test {
 namespace {
 
 Scene published(double angle, FingerState state = FingerState::Clean) {
@@ -63,4 +63,4 @@ TEST(DrivenRetention, GrowsAsTheDriveClosesTheGap) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::published_preset_test

@@ -7,7 +7,7 @@
 
 #include "forward/forward.h"
 
-namespace papilla::tests {
+namespace papilla::tests::pull_in_test {
 namespace {
 
 Scene dry(double amplitude) {
@@ -83,4 +83,4 @@ TEST(PullIn, IsFarWhereAirHoldsThePull) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::pull_in_test

@@ -12,7 +12,7 @@
 #include "physics/persson/patches.h"
 #include "physics/persson/persson.h"
 
-namespace papilla::tests {
+namespace papilla::tests::scale_laws_test {
 namespace {
 
 constexpr double kHumidity = 0.6;
@@ -183,4 +183,4 @@ TEST(ScaleLaws, TheCapacitiveGapIsThatOfTheMeanInverse) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::scale_laws_test

@@ -15,7 +15,7 @@
 #include "physics/electrostatics/electrowetting.h"
 #include "physics/electrostatics/rules.h"
 
-namespace papilla::tests {
+namespace papilla::tests::scene_laws_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -317,4 +317,4 @@ TEST(SceneLaws, TheLevelsOfAccuracyAreOneTable) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::scene_laws_test

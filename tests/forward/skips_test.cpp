@@ -15,7 +15,7 @@
 #include "numerics/statistics.h"
 #include "physics/contact/contact.h"
 
-namespace papilla::tests {
+namespace papilla::tests::skips_test {
 namespace {
 
 Fidelity small() {
@@ -199,4 +199,4 @@ TEST(SkipBounds, GoWithTheExponentOfTheLaw) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::skips_test

@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "forward/forward.h"
 
-namespace papilla::tests {
+namespace papilla::tests::stated_errors_test {
 namespace {
 
 using Member = Measured PointQuantities::*;
@@ -237,4 +237,4 @@ TEST(StatedErrors, TheLoadLawOfTheModulationIsJudgedInTheLimit) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::stated_errors_test

@@ -6,7 +6,7 @@
 
 #include "forward/response.h"
 
-namespace papilla::tests {
+namespace papilla::tests::status_test {
 namespace {
 
 constexpr int kTroubles = static_cast<int>(Trouble::Breakdown) + 1;
@@ -126,4 +126,4 @@ TEST(Status, AVoltageThatIsNotReachedNamesWhatCameFirst) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::status_test

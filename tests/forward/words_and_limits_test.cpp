@@ -11,7 +11,7 @@
 #include "forward/water_band.h"
 #include "physics/capillary/droplets.h"
 
-namespace papilla::tests {
+namespace papilla::tests::words_and_limits_test {
 namespace {
 
 TEST(AnswerWords, OfEveryTrouble) {
@@ -131,4 +131,4 @@ TEST(WaterBandLimits, NothingIsUnsureOfALoadThatIsGone) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::words_and_limits_test

@@ -19,7 +19,7 @@
 #include "tests/fuzz/study_targets.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::fuzz_slow_test {
 namespace {
 
 constexpr unsigned kHangSeconds = 20;
@@ -141,4 +141,4 @@ TEST(Fuzz, ReadersReturnOrRefuse) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::fuzz_slow_test

@@ -11,7 +11,7 @@
 #include "base/random.h"
 #include "geometry/roughness.h"
 
-namespace papilla::tests {
+namespace papilla::tests::areal_test {
 namespace {
 
 Heightmap map_of(const Grid& grid, const std::function<double(double x, double y)>& height) {
@@ -338,4 +338,4 @@ TEST(Histogram, HoldsTheLowestAndTheHighest) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::areal_test

@@ -14,7 +14,7 @@
 #include "base/random.h"
 #include "geometry/areal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::directions_test {
 namespace {
 
 struct Wave {
@@ -177,4 +177,4 @@ TEST(Likeness, IsThatOfEveryShiftByItsSum) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::directions_test

@@ -11,7 +11,7 @@
 #include "geometry/texture.h"
 #include "report/reference.h"
 
-namespace papilla::tests {
+namespace papilla::tests::facts_test {
 namespace {
 
 std::pair<double, double> extent(const Texture& t) {
@@ -162,4 +162,4 @@ TEST(Keys, OfTexturesAreThoseOfTheReference) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::facts_test

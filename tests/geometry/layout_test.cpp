@@ -16,7 +16,7 @@
 #include "geometry/texture.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::layout_test {
 namespace {
 
 struct GdsRecord {
@@ -201,4 +201,4 @@ TEST(Stl, IsAClosedBodyOfTheRightVolume) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::layout_test

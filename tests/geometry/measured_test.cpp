@@ -14,7 +14,7 @@
 #include "geometry/texture.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::measured_test {
 namespace {
 
 constexpr double kWidth = 20e-6, kHeight = 16e-6, kPatch = 12e-6;
@@ -179,4 +179,4 @@ TEST(MeasuredMap, RepeatsWithoutAStep) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::measured_test

@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "geometry/roughness.h"
 
-namespace papilla::tests {
+namespace papilla::tests::modes_test {
 namespace {
 
 // Flat to the roll-off, then q^-2(1+H), nothing beyond the cut-off.
@@ -102,4 +102,4 @@ TEST(Parameters, OfFewPixelsAreWorkedOutByHand) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::modes_test

@@ -12,7 +12,7 @@
 #include "geometry/scan.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::outliers_test {
 namespace {
 
 constexpr Grid kGrid{100, 80, 10e-6, 12e-6};
@@ -77,4 +77,4 @@ TEST(Outliers, GetTheMeanOfTheNearestSquareAroundThem) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::outliers_test

@@ -8,7 +8,7 @@
 #include "geometry/texture.h"
 #include "geometry/textures/particle_film.h"
 
-namespace papilla::tests {
+namespace papilla::tests::particles_test {
 namespace {
 
 ParticleFilm equal_spheres(double embedding) {
@@ -93,4 +93,4 @@ TEST(Particles, OfManySmallOnesNoTwoOverlap) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::particles_test

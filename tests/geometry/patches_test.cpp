@@ -12,7 +12,7 @@
 #include "tests/io/address_limit.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::patches_test {
 namespace {
 
 Texture square(double period) { return {HoleArray{.period = period, .diameter = 0.4 * period}}; }
@@ -102,4 +102,4 @@ TEST(Areal, OfAMapThatTheMemoryDoesNotHoldIsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::patches_test

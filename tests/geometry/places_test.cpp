@@ -14,7 +14,7 @@
 #include "geometry/textures/particle_film.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::places_test {
 namespace {
 
 // Height of the pixel that holds (x, y) [m].
@@ -271,4 +271,4 @@ TEST(RandomSurface, OfASeedIsTheSameOneInEveryVersion) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::places_test

@@ -8,7 +8,7 @@
 
 #include "base/constants.h"
 
-namespace papilla::tests {
+namespace papilla::tests::roughness_test {
 namespace {
 
 Heightmap surface(const Grid& grid, const std::function<double(double, double)>& height) {
@@ -89,4 +89,4 @@ TEST(RandomSurface, HasTheVarianceOfItsSpectrum) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::roughness_test

@@ -19,7 +19,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::scan_test {
 namespace {
 
 constexpr Grid kGrid{200, 120, 20e-6, 9e-6};  // oblong pixels
@@ -346,4 +346,4 @@ TEST(MeasuredMap, OneThatIsTooSmallIsRefusedWithItsSides) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::scan_test

@@ -21,7 +21,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::small_maps_test {
 namespace {
 
 Heightmap random_map(const Grid& grid, std::uint64_t seed) {
@@ -294,4 +294,4 @@ TEST(Films, ThatCannotBePlacedAreRefusedWithTheirNumbers) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::small_maps_test

@@ -11,7 +11,7 @@
 #include "report/surface.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::spectra_test {
 namespace {
 
 Heightmap noise(std::uint64_t seed, double rms, const Grid& grid) {
@@ -90,4 +90,4 @@ TEST(Consensus, HasTheMediansOfTheChallenge) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::spectra_test

@@ -9,7 +9,7 @@
 #include "base/constants.h"
 #include "geometry/texture.h"
 
-namespace papilla::tests {
+namespace papilla::tests::stated_facts_test {
 namespace {
 
 struct Said {
@@ -274,4 +274,4 @@ TEST(StatedRoles, AreTheMembersOfTheKind) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::stated_facts_test

@@ -14,7 +14,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::texture_test {
 namespace {
 
 double mean(const Heightmap& h) {
@@ -295,4 +295,4 @@ TEST(Measured, HeightsInAnotherUnitAreRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::texture_test

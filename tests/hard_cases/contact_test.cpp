@@ -12,7 +12,7 @@
 #include "geometry/roughness.h"
 #include "geometry/texture.h"
 
-namespace papilla::tests {
+namespace papilla::tests::contact_test {
 namespace {
 
 const LayeredSolid kSkin{66e6, 0.5, 1e-6, 60e6, 0.5};
@@ -169,4 +169,4 @@ TEST(HardContact, NumbersThatAreNoneAreAStatus) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::contact_test

@@ -7,7 +7,7 @@
 
 #include "base/files.h"
 
-namespace papilla::tests {
+namespace papilla::tests::map_test {
 namespace {
 
 std::set<std::string> test_names() {
@@ -41,4 +41,4 @@ TEST(HardCaseMap, NamesTestsThatExist) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::map_test

@@ -7,7 +7,7 @@
 #include "geometry/texture.h"
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::program_slow_test {
 namespace {
 
 const std::string kHead = "schema_version = 1\n";
@@ -242,4 +242,4 @@ TEST(HostileToml, DeepNestingAndLongLinesEnd) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::program_slow_test

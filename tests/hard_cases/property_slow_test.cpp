@@ -12,7 +12,7 @@
 #include "measure/coverage.h"
 #include "physics/contact/contact.h"
 
-namespace papilla::tests {
+namespace papilla::tests::property_slow_test {
 namespace {
 
 constexpr int kScenes = 10000;
@@ -136,4 +136,4 @@ TEST(Property, AMirroredOrTransposedContactIsTheSameContact) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::property_slow_test

@@ -11,7 +11,7 @@
 #include "physics/capillary/threshold.h"
 #include "physics/electrostatics/field.h"
 
-namespace papilla::tests {
+namespace papilla::tests::scenes_test {
 namespace {
 
 Fidelity small(Estimator estimator = Estimator::Load) {
@@ -261,4 +261,4 @@ TEST(HardField, BreakdownEverywhereIsReported) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::scenes_test

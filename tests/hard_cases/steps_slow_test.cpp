@@ -5,7 +5,7 @@
 
 #include "steps.h"
 
-namespace papilla::tests {
+namespace papilla::tests::steps_slow_test {
 namespace {
 
 Fidelity common_skins() {
@@ -58,4 +58,4 @@ TEST(NoCliffs, ALineBetweenTwoDesignsHasNoStep) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::steps_slow_test

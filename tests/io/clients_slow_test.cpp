@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::clients_slow_test {
 namespace {
 
 using Facts = std::map<std::string, std::string>;
@@ -229,4 +229,4 @@ TEST(Verify, JudgesTheFileAndFailsAboveTheTolerance) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::clients_slow_test

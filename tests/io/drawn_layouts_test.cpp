@@ -13,7 +13,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::drawn_layouts_test {
 namespace {
 
 // A line a cell, a polygon, a reference.
@@ -215,4 +215,4 @@ TEST(DrawnContours, OfLevelsLieInTheMiddleOfTheirShares) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::drawn_layouts_test

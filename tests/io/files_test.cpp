@@ -18,7 +18,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::files_test {
 namespace {
 
 class Files : public ::testing::Test {
@@ -231,4 +231,4 @@ TEST_F(Files, HostileFilesAreRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::files_test

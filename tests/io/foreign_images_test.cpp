@@ -17,7 +17,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::foreign_images_test {
 namespace {
 
 constexpr int kNx = 37, kNy = 50;
@@ -304,4 +304,4 @@ TEST(ForeignImages, GreyHasTheHeightsOfItsDescription) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::foreign_images_test

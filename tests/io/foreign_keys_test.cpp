@@ -13,7 +13,7 @@
 #include "geometry/io/height_rows.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::foreign_keys_test {
 namespace {
 
 using Keys = std::vector<std::pair<std::string, std::string>>;
@@ -151,4 +151,4 @@ TEST(ForeignKeys, RowsAcrossStripsAreEachTheirOwn) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::foreign_keys_test

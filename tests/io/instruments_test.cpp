@@ -16,7 +16,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::instruments_test {
 namespace {
 
 Heightmap slope_and_bumps() {
@@ -267,4 +267,4 @@ TEST(Instruments, MadeMapsKeepTheirPlaneAndSaySo) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::instruments_test

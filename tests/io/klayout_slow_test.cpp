@@ -10,7 +10,7 @@
 #include "geometry/texture.h"
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::klayout_slow_test {
 namespace {
 
 TEST(KlayoutMask, HasTheAreaOfTheHolesInSquareMicrometres) {
@@ -34,4 +34,4 @@ TEST(KlayoutMask, HasTheAreaOfTheHolesInSquareMicrometres) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::klayout_slow_test

@@ -13,7 +13,7 @@
 #include "geometry/io/drawing.h"
 #include "geometry/io/mask.h"
 
-namespace papilla::tests {
+namespace papilla::tests::margins_test {
 namespace {
 
 Heightmap pixels(const Grid& grid, const std::function<bool(int ix, int iy)>& deep) {
@@ -247,4 +247,4 @@ TEST(Contours, LieHalfWayBetweenTheirSteps) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::margins_test

@@ -17,7 +17,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::mask_test {
 namespace {
 
 FeatureArray array_of(const HoleArray& holes) {
@@ -284,4 +284,4 @@ TEST(Outlines, OfARoughSurfaceThereAreNoneAndTheRefusalSaysWhatToTake) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::mask_test

@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "geometry/io/mask.h"
 
-namespace papilla::tests {
+namespace papilla::tests::narrow_places_test {
 namespace {
 
 constexpr double kPixel = 100e-9;
@@ -161,4 +161,4 @@ TEST(Outlines, OfACornerAreClosedAtTheBorder) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::narrow_places_test

@@ -13,7 +13,7 @@
 #include "geometry/texture.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::oasis_test {
 namespace {
 
 Layout square_at(std::int32_t x, std::int32_t y) {
@@ -274,4 +274,4 @@ TEST(Gds, OtherUnitsAndPitchesAreRefusedByTheirName) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::oasis_test

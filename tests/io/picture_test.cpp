@@ -8,7 +8,7 @@
 
 #include "geometry/io/files.h"
 
-namespace papilla::tests {
+namespace papilla::tests::picture_test {
 namespace {
 
 using Colour = std::array<int, 3>;
@@ -96,4 +96,4 @@ TEST(Pictures, ABarHigherThanItsPictureIsCutAtTheTop) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::picture_test

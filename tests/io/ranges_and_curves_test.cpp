@@ -15,7 +15,7 @@
 #include "geometry/io/layout.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::ranges_and_curves_test {
 namespace {
 
 // Chunks of 2^14 pixels are looked at side by side: of 200 x 200 the last is of 7232.
@@ -111,4 +111,4 @@ TEST(DoseCurves, AreInvertedByLinesWithinTheirEnds) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::ranges_and_curves_test

@@ -15,7 +15,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::raw_test {
 namespace {
 
 constexpr const char* kStart = "Gwyddion Simple Field 1.0\n";
@@ -214,4 +214,4 @@ TEST(Npy, WhatCannotBeReadIsNamed) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::raw_test

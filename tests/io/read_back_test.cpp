@@ -12,7 +12,7 @@
 #include "geometry/io/layout.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::read_back_test {
 namespace {
 
 // Of all its files so far.
@@ -43,4 +43,4 @@ TEST(ReadBack, OfAnImageOfAFewPixelsIsWhole) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::read_back_test

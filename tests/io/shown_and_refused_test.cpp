@@ -15,7 +15,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::shown_and_refused_test {
 namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
@@ -178,4 +178,4 @@ TEST(ReadHeights, OfAnX3pAreInTheStepsOfTheirAxis) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::shown_and_refused_test

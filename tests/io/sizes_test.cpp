@@ -9,7 +9,7 @@
 #include "geometry/io/layout.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::sizes_test {
 namespace {
 
 Heightmap oblong() {
@@ -63,4 +63,4 @@ TEST(Sizes, AnImageInOtherUnitsIsReadInMetres) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::sizes_test

@@ -19,7 +19,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::written_files_test {
 namespace {
 
 using namespace std::string_literals;
@@ -297,4 +297,4 @@ TEST(ReadFiles, WhatTheMemoryDoesNotHoldIsRefusedBeforeItIsRead) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::written_files_test

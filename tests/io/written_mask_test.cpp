@@ -16,7 +16,7 @@
 #include "tests/io/gds_file.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::written_mask_test {
 namespace {
 
 HoleArray one_hole() {
@@ -154,4 +154,4 @@ TEST(WrittenMask, DeeperIsWhiteFromHalfTheDepthOn) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::written_mask_test

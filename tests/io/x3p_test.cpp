@@ -17,7 +17,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::x3p_test {
 namespace {
 
 constexpr const char* kReader = R"(
@@ -208,4 +208,4 @@ TEST(X3p, UnpacksNoMoreThanItsPixels) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::x3p_test

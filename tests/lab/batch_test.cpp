@@ -9,7 +9,7 @@
 #include "numerics/statistics.h"
 #include "tests/lab/ensembles.h"
 
-namespace papilla::tests {
+namespace papilla::tests::batch_test {
 namespace {
 
 Candidate candidate(std::size_t row, double deviation, std::size_t design = 0) {
@@ -149,4 +149,4 @@ TEST(Batch, IsTheSameForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::batch_test

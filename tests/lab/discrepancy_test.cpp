@@ -8,7 +8,7 @@
 #include "lab/gauge.h"
 #include "tests/lab/ensembles.h"
 
-namespace papilla::tests {
+namespace papilla::tests::discrepancy_test {
 namespace {
 
 // Ten rows that one number moves alike; readings of a member with some of them off by a factor.
@@ -76,4 +76,4 @@ TEST(Gauge, PartsRepeatsDaysAndFingers) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::discrepancy_test

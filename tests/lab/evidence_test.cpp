@@ -8,7 +8,7 @@
 
 #include "tests/lab/ensembles.h"
 
-namespace papilla::tests {
+namespace papilla::tests::evidence_test {
 namespace {
 
 TEST(Kernels, KeepMeanAndCovarianceOfTheMembers) {
@@ -103,4 +103,4 @@ TEST(Evidence, OfTwoReadingsOnADayKnowsTheirRatioBest) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::evidence_test

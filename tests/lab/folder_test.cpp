@@ -9,7 +9,7 @@
 #include "tests/lab/tribometer.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -223,4 +223,4 @@ TEST_F(LabFolder, SaysWhatIsWrongInLabToml) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::folder_test

@@ -11,7 +11,7 @@
 #include "tests/lab/small_lab.h"
 #include "tests/lab/tribometer.h"
 
-namespace papilla::tests {
+namespace papilla::tests::story_slow_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -199,4 +199,4 @@ TEST_F(Story, OfATellKilledAtThirtyMomentsLosesNothingAndCountsNothingTwice) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::story_slow_test

@@ -4,7 +4,7 @@
 #include "lab/measured_table.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::table_test {
 namespace {
 
 MeasuredTable table(const std::string& text) { return read_measured_table(text, "table.csv"); }
@@ -85,4 +85,4 @@ TEST(MeasuredTable, AsksWhetherAFileWithoutItsLastLineEndIsWhole) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::table_test

@@ -10,7 +10,7 @@
 #include "tests/lab/tribometer.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::trace_test {
 namespace {
 
 TraceReading read(const std::string& text) {
@@ -204,4 +204,4 @@ TEST(Record, IsDrawnWithWhatWasFound) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::trace_test

@@ -7,7 +7,7 @@
 
 #include "base/constants.h"
 
-namespace papilla::tests {
+namespace papilla::tests::fingertip_test {
 namespace {
 
 TEST(Fingertip, ASphereOfOneMaterialIsHertz) {
@@ -119,4 +119,4 @@ TEST(Fingertip, RingsCarryTheirProfile) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::fingertip_test

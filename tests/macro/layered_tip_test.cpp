@@ -7,7 +7,7 @@
 #include "base/constants.h"
 #include "physics/macro/fingertip.h"
 
-namespace papilla::tests {
+namespace papilla::tests::layered_tip_test {
 namespace {
 
 TEST(LayeredTip, FeelsTheLayerByGaosWeight) {
@@ -121,4 +121,4 @@ TEST(LayeredTip, RidgesPressByTheShareThatTheyAre) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::layered_tip_test

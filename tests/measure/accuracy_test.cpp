@@ -13,7 +13,7 @@
 #include "estimate/target.h"
 #include "metrics/metrics.h"
 
-namespace papilla::tests {
+namespace papilla::tests::accuracy_test {
 namespace {
 
 Scene driven() {
@@ -198,4 +198,4 @@ TEST(AccuracyPage, TheErrorBarsCoverHeldOutScenes) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::accuracy_test

@@ -12,7 +12,7 @@
 #include "geometry/texture.h"
 #include "report/accuracy.h"
 
-namespace papilla::tests {
+namespace papilla::tests::coverage_test {
 namespace {
 
 CoverageRow row(double value, double half_width, double reference, double reference_error = 0) {
@@ -182,4 +182,4 @@ TEST(Coverage, ARowOfTheCommittedTableIsWhatItsSceneGivesToday) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::coverage_test

@@ -11,7 +11,7 @@
 #include "geometry/texture.h"
 #include "measure/coverage.h"
 
-namespace papilla::tests {
+namespace papilla::tests::drawn_scenes_test {
 namespace {
 
 // The kinds in turn; a wall is never so gentle that it meets the one across.
@@ -119,4 +119,4 @@ TEST(DrawnScenes, AreWhatTheStreamOfTheirIndexSays) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::drawn_scenes_test

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace papilla::tests {
+namespace papilla::tests::field_accuracy_test {
 namespace {
 
 TEST(FieldAccuracy, RefinedBodiesAreTheSameAndRulesAreNearTheirPotential) {
@@ -33,4 +33,4 @@ TEST(FieldAccuracy, RefinedBodiesAreTheSameAndRulesAreNearTheirPotential) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::field_accuracy_test

@@ -12,7 +12,7 @@
 #include "measure/accuracy.h"
 #include "measure/coverage.h"
 
-namespace papilla::tests {
+namespace papilla::tests::judged_scene_test {
 namespace {
 
 constexpr int kScene = 39;  // no texture, a film that is alike everywhere: the cheapest
@@ -132,4 +132,4 @@ TEST(Coverage, AsksForTheScenesOfTheReports) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::judged_scene_test

@@ -10,7 +10,7 @@
 #include "forward/forward.h"
 #include "metrics/metrics.h"
 
-namespace papilla::tests {
+namespace papilla::tests::recomputed_test {
 namespace {
 
 std::map<std::string, std::string> row_of(const std::string& setting) {
@@ -45,4 +45,4 @@ TEST(AccuracyTables, ARowIsWhatTheModelGivesToday) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::recomputed_test

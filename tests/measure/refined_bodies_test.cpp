@@ -13,7 +13,7 @@
 #include "physics/electrostatics/full_field.h"
 #include "tests/support/one_pass.h"
 
-namespace papilla::tests {
+namespace papilla::tests::refined_bodies_test {
 namespace {
 
 Design smooth_skin() {
@@ -124,4 +124,4 @@ TEST(RefinedBodies, CarryTheirWaterAlong) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::refined_bodies_test

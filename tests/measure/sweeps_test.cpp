@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "measure/accuracy.h"
 
-namespace papilla::tests {
+namespace papilla::tests::sweeps_test {
 namespace {
 
 TEST(AccuracySweepsOfOneRun, ErrorsAreAgainstTheLastOfASweepAndWorkIsThatOfItsTransforms) {
@@ -86,4 +86,4 @@ TEST(AccuracySweepsOfOneRun, ErrorsAreAgainstTheLastOfASweepAndWorkIsThatOfItsTr
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::sweeps_test

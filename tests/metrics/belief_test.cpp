@@ -6,7 +6,7 @@
 #include "base/constants.h"
 #include "metrics/metrics.h"
 
-namespace papilla::tests {
+namespace papilla::tests::belief_test {
 namespace {
 
 std::vector<ResponsePoint> points(const std::vector<double>& modulations) {
@@ -135,4 +135,4 @@ TEST(BeliefValues, QuantilesAreOfTheWeights) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::belief_test

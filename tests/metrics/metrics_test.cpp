@@ -11,7 +11,7 @@
 #include "metrics/series.h"
 #include "metrics/shown.h"
 
-namespace papilla::tests {
+namespace papilla::tests::metrics_test {
 namespace {
 
 Response response_of(std::vector<double> modulation, std::vector<double> weights = {}) {
@@ -303,4 +303,4 @@ TEST(Metrics, ErrorsAreShownInTheUnitsOfTheirValues) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::metrics_test

@@ -10,7 +10,7 @@
 #include "metrics/series.h"
 #include "numerics/statistics.h"
 
-namespace papilla::tests {
+namespace papilla::tests::summaries_test {
 namespace {
 
 using Values = std::vector<double>;
@@ -249,4 +249,4 @@ TEST(Summaries, ADifferenceHasItsThreePartsInSquares) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::summaries_test

@@ -9,7 +9,7 @@
 #include "metrics/metrics.h"
 #include "metrics/shown.h"
 
-namespace papilla::tests {
+namespace papilla::tests::words_test {
 namespace {
 
 TEST(MetricWords, TheListIsWhole) {
@@ -248,4 +248,4 @@ TEST(MetricWords, WhatIsFeltIsAStepThatErrorsSoften) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::words_test

@@ -9,7 +9,7 @@
 #include "base/random.h"
 #include "numerics/fft.h"
 
-namespace papilla::tests {
+namespace papilla::tests::convolution_test {
 namespace {
 
 template <class Real>
@@ -71,4 +71,4 @@ TEST(Convolution, InSinglePrecisionToItsRounding) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::convolution_test

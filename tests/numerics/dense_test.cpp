@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace papilla::tests {
+namespace papilla::tests::dense_test {
 namespace {
 
 TEST(LinearSystems, AreSolvedWithTheirDeterminant) {
@@ -85,4 +85,4 @@ TEST(Cholesky, InvertsAMarkovCovariance) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::dense_test

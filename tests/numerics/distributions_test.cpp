@@ -13,7 +13,7 @@
 #include "numerics/convolution.h"
 #include "numerics/statistics.h"
 
-namespace papilla::tests {
+namespace papilla::tests::distributions_test {
 namespace {
 
 // P(|T| < t) by sums of powers of cos(atan(t/sqrt(n))).
@@ -175,4 +175,4 @@ TEST(Convolutions, OfAnImpulseIsTheKernel) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::distributions_test

@@ -12,7 +12,7 @@
 #include "base/constants.h"
 #include "base/random.h"
 
-namespace papilla::tests {
+namespace papilla::tests::fft_test {
 namespace {
 
 RealArray noise(std::size_t count) {
@@ -104,4 +104,4 @@ TEST(Fft2d, ForwardThenInverseIsTheIdentityTimesN) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::fft_test

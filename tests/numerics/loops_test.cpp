@@ -14,7 +14,7 @@
 #include "numerics/window.h"
 #include "tests/numerics/both_ways.h"
 
-namespace papilla::tests {
+namespace papilla::tests::loops_test {
 namespace {
 
 std::vector<double> numbers(std::size_t n) {
@@ -182,4 +182,4 @@ TEST(Window, SumsItsWeightsTimesTwoImages) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::loops_test

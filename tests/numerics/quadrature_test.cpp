@@ -8,7 +8,7 @@
 #include "base/check.h"
 #include "base/error.h"
 
-namespace papilla::tests {
+namespace papilla::tests::quadrature_test {
 namespace {
 
 TEST(Quadrature, GaussLegendreIsExactForDegree2nMinus1) {
@@ -56,4 +56,4 @@ TEST(GaussLegendre, OfFewNodesIsPrintedAndOfManyAddsUp) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::quadrature_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace papilla::tests {
+namespace papilla::tests::statistics_test {
 namespace {
 
 TEST(Statistics, AMeanHasTheErrorOfItsSamples) {
@@ -121,4 +121,4 @@ TEST(Statistics, StudentsDistributionHasItsTabulatedValues) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::statistics_test

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace papilla::tests {
+namespace papilla::tests::vector_test {
 namespace {
 
 using Numbers = Vector<double>;
@@ -104,4 +104,4 @@ TEST(Vector, KnowsItsLargestAndABitForEachAnswer) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::vector_test

@@ -10,7 +10,7 @@
 #include "tests/support/glass.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::appearance_slow_test {
 namespace {
 
 // What a design shows is what its exported map shows.
@@ -56,4 +56,4 @@ TEST(Appearance, OfAMeasuredSurfaceAndOfAStackIsThatOfTheirMaps) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::appearance_slow_test

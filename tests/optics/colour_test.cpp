@@ -8,7 +8,7 @@
 #include "geometry/texture.h"
 #include "physics/optics/optics.h"
 
-namespace papilla::tests {
+namespace papilla::tests::colour_test {
 namespace {
 
 // The 2 degree observer, 400 to 720 nm in steps of 20 nm (CIE 15:2004, table T.4).
@@ -61,4 +61,4 @@ TEST(ColourShift, OfAFlatPlateIsNearlyNone) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::colour_test

@@ -13,7 +13,7 @@
 #include "physics/optics/optics.h"
 #include "tests/support/glass.h"
 
-namespace papilla::tests {
+namespace papilla::tests::lattice_test {
 namespace {
 
 double power_of(const std::vector<LatticeOrder>& orders, int m, int n) {
@@ -231,4 +231,4 @@ TEST(LatticeLook, OfVGroovesIsThatOfTheirSlices) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::lattice_test

@@ -9,7 +9,7 @@
 #include "base/constants.h"
 #include "physics/optics/optics.h"
 
-namespace papilla::tests {
+namespace papilla::tests::layer_optics_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -186,4 +186,4 @@ TEST(LayerOptics, EveryTheoryHasItsWords) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::layer_optics_test

@@ -10,7 +10,7 @@
 #include "physics/optics/screen.h"
 #include "tests/support/glass.h"
 
-namespace papilla::tests {
+namespace papilla::tests::meters_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -200,4 +200,4 @@ TEST(Films, OfADesignStandFromTheFingerDown) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::meters_test

@@ -13,7 +13,7 @@
 #include "geometry/roughness.h"
 #include "tests/support/glass.h"
 
-namespace papilla::tests {
+namespace papilla::tests::optics_test {
 namespace {
 
 Texture holes(double period, double diameter, double depth) {
@@ -344,4 +344,4 @@ TEST(Appearance, WhereWallsMeetIsThatOfTheHeights) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::optics_test

@@ -11,7 +11,7 @@
 #include "physics/optics/optics.h"
 #include "physics/optics/sparkle.h"
 
-namespace papilla::tests {
+namespace papilla::tests::rough_look_slow_test {
 namespace {
 
 Panel panel(double width, double height, double distance) {
@@ -110,4 +110,4 @@ TEST(Sparkle, ClosedFormsAreTheMonteCarlo) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::rough_look_slow_test

@@ -11,7 +11,7 @@
 #include "physics/optics/sparkle.h"
 #include "tests/support/glass.h"
 
-namespace papilla::tests {
+namespace papilla::tests::rough_look_test {
 namespace {
 
 // Light beyond the cone of Gaussian heights of one scale, term by term.
@@ -137,4 +137,4 @@ TEST(Sparkle, NeedsAPanel) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::rough_look_test

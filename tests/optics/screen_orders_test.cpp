@@ -11,7 +11,7 @@
 #include "base/random.h"
 #include "physics/optics/optics.h"
 
-namespace papilla::tests {
+namespace papilla::tests::screen_orders_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -164,4 +164,4 @@ TEST(ScreenOrders, MeansAreThoseOfTheObserver) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::screen_orders_test

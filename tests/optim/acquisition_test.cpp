@@ -11,7 +11,7 @@
 #include "optim/pareto.h"
 #include "optim/search.h"
 
-namespace papilla::tests {
+namespace papilla::tests::acquisition_test {
 namespace {
 
 SearchProblem line(std::size_t objectives, std::size_t constraints = 0) {
@@ -270,4 +270,4 @@ TEST(Bayesian, DraftsComeInTwoThirdsAndRounds) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::acquisition_test

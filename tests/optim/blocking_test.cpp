@@ -8,7 +8,7 @@
 
 #include "optim/algorithms/searchers.h"
 
-namespace papilla::tests {
+namespace papilla::tests::blocking_test {
 namespace {
 
 using Values = std::vector<double>;
@@ -289,4 +289,4 @@ TEST(LeastSquaresSearch, TakesDifferencesOfTwoHundredthsOfTheUnitCube) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::blocking_test

@@ -11,7 +11,7 @@
 #include "optim/least_squares.h"
 #include "optim/trust_region.h"
 
-namespace papilla::tests {
+namespace papilla::tests::fits_test {
 namespace {
 
 using Values = std::vector<double>;
@@ -424,4 +424,4 @@ TEST(Fits, EveryEvaluationOfTheDataIsCounted) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::fits_test

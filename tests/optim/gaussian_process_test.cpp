@@ -9,7 +9,7 @@
 
 #include "base/constants.h"
 
-namespace papilla::tests {
+namespace papilla::tests::gaussian_process_test {
 namespace {
 
 // Correlation of two points, of what is measured at one, and between them.
@@ -176,4 +176,4 @@ TEST(DraftedProcess, StandsAloneWhereDraftsDoNotHelpOrAreFew) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::gaussian_process_test

@@ -10,7 +10,7 @@
 #include "tests/optim/journal_at.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::journal_test {
 namespace {
 
 class JournalFile : public ::testing::Test {
@@ -105,4 +105,4 @@ TEST_F(JournalFile, AnotherStudyOrAnUnaskedResumeIsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::journal_test

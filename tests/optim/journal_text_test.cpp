@@ -15,7 +15,7 @@
 #include "tests/optim/journal_at.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::journal_text_test {
 namespace {
 
 std::string bytes_of(const std::string& path) {
@@ -238,4 +238,4 @@ TEST(JournalText, WhereNothingCanBeWrittenItSaysSo) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::journal_text_test

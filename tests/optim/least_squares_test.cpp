@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/random.h"
 
-namespace papilla::tests {
+namespace papilla::tests::least_squares_test {
 namespace {
 
 using Values = std::vector<double>;
@@ -175,4 +175,4 @@ TEST(LeastSquares, DifferencesAreTakenAtTheStepOfTheParameter) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::least_squares_test

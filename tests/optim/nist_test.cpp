@@ -18,7 +18,7 @@
 
 #include "optim/least_squares.h"
 
-namespace papilla::tests {
+namespace papilla::tests::nist_test {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -196,4 +196,4 @@ TEST(Nist, CertifiedValuesAndStandardErrorsOfAllProblemsFromBothStarts) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::nist_test

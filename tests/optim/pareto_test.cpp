@@ -8,7 +8,7 @@
 
 #include "base/random.h"
 
-namespace papilla::tests {
+namespace papilla::tests::pareto_test {
 namespace {
 
 using Values = std::vector<double>;
@@ -135,4 +135,4 @@ TEST(SpreadPoints, TakeTheEndsAndThenTheFarthestInUnitsOfTheExtent) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::pareto_test

@@ -9,7 +9,7 @@
 #include "optim/posterior.h"
 #include "tests/optim/linear_posterior.h"
 
-namespace papilla::tests {
+namespace papilla::tests::posterior_slow_test {
 namespace {
 
 // A hundred truths of three numbers each, planted: 95 % intervals hold nine or more of ten, those
@@ -101,4 +101,4 @@ TEST(PosteriorSlow, AnotherVarianceFactorIsAnotherPosteriorOfTheSameSamples) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::posterior_slow_test

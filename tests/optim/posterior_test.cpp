@@ -14,7 +14,7 @@
 #include "numerics/statistics.h"
 #include "tests/optim/linear_posterior.h"
 
-namespace papilla::tests {
+namespace papilla::tests::posterior_test {
 namespace {
 
 TEST(Posterior, OfALinearModelMeanAndCovarianceAreTheClosedForm) {
@@ -297,4 +297,4 @@ TEST(ChosenPoints, OfOnePointAreThatPoint) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::posterior_test

@@ -7,7 +7,7 @@
 
 #include "optim/fit_profile.h"
 
-namespace papilla::tests {
+namespace papilla::tests::profile_test {
 namespace {
 
 struct End {
@@ -92,4 +92,4 @@ TEST(Profile, OfWhatIsNoParabolaIsWithinAThousandth) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::profile_test

@@ -8,7 +8,7 @@
 #include "optim/pareto.h"
 #include "optim/search.h"
 
-namespace papilla::tests {
+namespace papilla::tests::promising_test {
 namespace {
 
 SearchProblem box(std::size_t n) {
@@ -265,4 +265,4 @@ TEST(ModelCoordinates, AreAsFarApartAsTheValues) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::promising_test

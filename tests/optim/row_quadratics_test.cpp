@@ -10,7 +10,7 @@
 #include "base/random.h"
 #include "optim/posterior.h"
 
-namespace papilla::tests {
+namespace papilla::tests::row_quadratics_test {
 namespace {
 
 struct Points {
@@ -111,4 +111,4 @@ TEST(RowQuadratics, FollowPointsByTheirWidths) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::row_quadratics_test

@@ -19,7 +19,7 @@
 #include "optim/pareto.h"
 #include "optim/worker.h"
 
-namespace papilla::tests {
+namespace papilla::tests::search_test {
 namespace {
 
 SearchProblem box(std::size_t n, std::size_t objectives, int evaluations, double low = 0,
@@ -621,4 +621,4 @@ TEST(DraftedProcess, FindsHowManyTimesTheDraftTheValuesAre) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::search_test

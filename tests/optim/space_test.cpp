@@ -8,7 +8,7 @@
 #include "base/random.h"
 #include "optim/problem.h"
 
-namespace papilla::tests {
+namespace papilla::tests::space_test {
 namespace {
 
 double fraction(double x) { return x - std::floor(x); }
@@ -155,4 +155,4 @@ TEST(Outcomes, AreGuardedAsWholes) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::space_test

@@ -5,7 +5,7 @@
 
 #include "optim/search.h"
 
-namespace papilla::tests {
+namespace papilla::tests::surer_test {
 namespace {
 
 Evaluation seen(Point unit, double objective, std::vector<double> constraints, bool ok = true) {
@@ -72,4 +72,4 @@ TEST(Surer, AKindIsHalfAUnitFromEveryOther) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::surer_test

@@ -8,7 +8,7 @@
 #include "base/random.h"
 #include "optim/search.h"
 
-namespace papilla::tests {
+namespace papilla::tests::target_search_test {
 namespace {
 
 SearchProblem target_problem() {
@@ -75,4 +75,4 @@ TEST(TargetSearch, WhatIsNoSumOfSquaresIsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::target_search_test

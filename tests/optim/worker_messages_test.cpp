@@ -11,7 +11,7 @@
 #include "optim/worker.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::worker_messages_test {
 namespace {
 
 using Reason = WorkFailure::Reason;
@@ -141,4 +141,4 @@ TEST(Team, OfAnySizeAnswersInTheOrderOfTheRequests) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::worker_messages_test

@@ -10,7 +10,7 @@
 #include "base/constants.h"
 #include "physics/persson/patches.h"
 
-namespace papilla::tests {
+namespace papilla::tests::patch_rule_test {
 namespace {
 
 double relative(double a, double b) { return std::abs(a / b - 1); }
@@ -133,4 +133,4 @@ TEST(PatchRule, RefusesWhatHasNoRule) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::patch_rule_test

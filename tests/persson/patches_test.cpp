@@ -9,7 +9,7 @@
 #include "physics/persson/persson.h"
 #include "tests/persson/table.h"
 
-namespace papilla::tests {
+namespace papilla::tests::patches_test {
 namespace {
 
 constexpr double kPatch = 2 * kPi / 12e-6;  // wave number of a patch of 12 um
@@ -123,4 +123,4 @@ TEST(PowerSpectrum, AStepIsAllowed) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::patches_test

@@ -14,7 +14,7 @@
 #include "physics/persson/power_law.h"
 #include "tests/persson/table.h"
 
-namespace papilla::tests {
+namespace papilla::tests::persson_test {
 namespace {
 
 constexpr MeanFieldOptions kPure{.kappa = kPurePersson};
@@ -534,4 +534,4 @@ TEST(PowerIntegral, IsThatOfAPowerAndOfTheLogarithmBetweenThem) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::persson_test

@@ -21,7 +21,7 @@
 #include "physics/persson/persson.h"
 #include "physics/persson/power_law.h"
 
-namespace papilla::tests {
+namespace papilla::tests::theory_test {
 namespace {
 
 double relative(double a, double b) { return std::abs(a - b) / std::abs(b); }
@@ -627,4 +627,4 @@ TEST(Plasticity, SmoothingLeavesWhatHasNotYielded) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::theory_test

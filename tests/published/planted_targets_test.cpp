@@ -14,7 +14,7 @@
 #include "published/targets.h"
 #include "tests/published/planted.h"
 
-namespace papilla::tests {
+namespace papilla::tests::planted_targets_test {
 namespace {
 
 constexpr double kAny = std::numeric_limits<double>::infinity();
@@ -209,4 +209,4 @@ TEST(PublishedSamples, AreasOfTheLoadLawAreThoseOfLoads) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::planted_targets_test

@@ -13,7 +13,7 @@
 #include "numerics/statistics.h"
 #include "published/targets.h"
 
-namespace papilla::tests {
+namespace papilla::tests::samples_test {
 namespace {
 
 FingerModel small_model() {
@@ -186,4 +186,4 @@ TEST(PublishedTargets, TheGapOfASlidingFingerIsUnderItsMeanPressure) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::samples_test

@@ -6,7 +6,7 @@
 #include "numerics/statistics.h"
 #include "rank/rank.h"
 
-namespace papilla::tests {
+namespace papilla::tests::ahead_test {
 namespace {
 
 // Two samples whose lead the finger's roughness leaves as open as the skins do.
@@ -41,4 +41,4 @@ TEST(Ahead, WhatTheFingerLeavesOpenIsInTheProbability) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::ahead_test

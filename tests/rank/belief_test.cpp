@@ -11,7 +11,7 @@
 #include "report/ranking.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::belief_test {
 namespace {
 
 // Steps of two members of weight .75 and .25 that move a score by -1 and 3 from its mean.
@@ -107,4 +107,4 @@ TEST_F(RankedByBelief, OtherBeliefsOrOtherModelOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::belief_test

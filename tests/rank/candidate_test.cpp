@@ -12,7 +12,7 @@
 #include "tests/rank/samples.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::candidate_test {
 namespace {
 
 void expect_near(const std::vector<double>& a, const std::vector<double>& b,
@@ -163,4 +163,4 @@ TEST(Candidate, SaysWhyACriterionIsNotDefinedForIt) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::candidate_test

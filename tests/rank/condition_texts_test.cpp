@@ -11,7 +11,7 @@
 #include "tests/rank/samples.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::condition_texts_test {
 namespace {
 
 std::vector<std::string> keys(const Design& a, const Design& b, const std::string& criteria) {
@@ -157,4 +157,4 @@ TEST(CriteriaTexts, EachRefusalSaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::condition_texts_test

@@ -7,7 +7,7 @@
 #include "tests/rank/samples.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::conditions_test {
 namespace {
 
 std::string refusal(const std::vector<ConditionDifference>& differences) {
@@ -92,4 +92,4 @@ TEST(Criteria, AreReadBackAsTheyAreWritten) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::conditions_test

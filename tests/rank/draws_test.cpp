@@ -9,7 +9,7 @@
 #include "numerics/statistics.h"
 #include "rank/scores.h"
 
-namespace papilla::tests {
+namespace papilla::tests::draws_test {
 namespace {
 
 constexpr double kOfDraws = 0.025;  // three standard errors of 4000 draws
@@ -122,4 +122,4 @@ TEST(Draws, StepsThatOnlyScatterMoveNothing) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::draws_test

@@ -12,7 +12,7 @@
 #include "tests/rank/samples.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::race_test {
 namespace {
 
 using Samples = std::vector<std::vector<double>>;  // [candidate][skin]
@@ -378,4 +378,4 @@ TEST(Race, EachRefusalSaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::race_test

@@ -3,7 +3,7 @@
 
 #include "tests/rank/samples.h"
 
-namespace papilla::tests {
+namespace papilla::tests::rank_slow_test {
 namespace {
 
 // Skins beyond the first six happen to be of lower modulation: only the close pairs meet them.
@@ -50,4 +50,4 @@ TEST(Rank, ArrangementsOfOneRoughnessAreNotToldApartByTheirHaze) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::rank_slow_test

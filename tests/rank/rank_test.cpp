@@ -13,7 +13,7 @@
 #include "report/ranking.h"
 #include "tests/rank/samples.h"
 
-namespace papilla::tests {
+namespace papilla::tests::rank_test {
 namespace {
 
 TEST(Rank, OrdersTheSamplesAsThePaperDoes) {
@@ -333,4 +333,4 @@ TEST(Rank, JsonIsComplete) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::rank_test

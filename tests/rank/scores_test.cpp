@@ -7,7 +7,7 @@
 
 #include "numerics/statistics.h"
 
-namespace papilla::tests {
+namespace papilla::tests::scores_test {
 namespace {
 
 using Order = std::vector<std::size_t>;
@@ -132,4 +132,4 @@ TEST(Scores, WhatTheSkinsScatterOfTheStepsIsTakenOffTheProbabilities) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::scores_test

@@ -14,7 +14,7 @@
 #include "tests/report/same_json.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::accuracy_test {
 namespace {
 
 AccuracyRow row() {
@@ -192,4 +192,4 @@ TEST(AccuracyReport, ThePageHasARowASettingUnderItsSweep) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::accuracy_test

@@ -8,7 +8,7 @@
 #include "report/claims.h"
 #include "tests/support/golden.h"
 
-namespace papilla::tests {
+namespace papilla::tests::claims_report_test {
 namespace {
 
 struct Judged {
@@ -47,4 +47,4 @@ TEST(BenchReport, MeetsATargetOnItsSide) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::claims_report_test

@@ -12,7 +12,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::comparison_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -123,4 +123,4 @@ TEST(Comparison, RefusesWhatIsNoFinishedRunOrWantsSomethingElse) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::comparison_test

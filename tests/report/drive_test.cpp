@@ -12,7 +12,7 @@
 #include "base/constants.h"
 #include "tests/report/same_json.h"
 
-namespace papilla::tests {
+namespace papilla::tests::drive_test {
 namespace {
 
 struct Driven {
@@ -300,4 +300,4 @@ TEST(DriveReport, ASwipeForProgramsIsInSi) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::drive_test

@@ -15,7 +15,7 @@
 #include "tests/report/pixels.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::droplet_pixels_test {
 namespace {
 
 constexpr Colour kBridge{30, 110, 255}, kFilm{0, 190, 200}, kSubstrate{255, 150, 0},
@@ -182,4 +182,4 @@ TEST(DropletPixels, OfALargeGridAreItsOwn) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::droplet_pixels_test

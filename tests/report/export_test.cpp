@@ -16,7 +16,7 @@
 #include "tests/report/same_json.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::export_test {
 namespace {
 
 Export made_up() {
@@ -231,4 +231,4 @@ TEST(FieldPictures, OfAnEarlierRunAreRemovedAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::export_test

@@ -8,7 +8,7 @@
 #include "report/predictions.h"
 #include "tests/report/same_json.h"
 
-namespace papilla::tests {
+namespace papilla::tests::figures_test {
 namespace {
 
 FigureValue around(double v) { return {{v, v / 10}, 0.8 * v, 1.25 * v}; }
@@ -154,4 +154,4 @@ TEST(PredictionsReport, HasEachNumberBesideItsExperiment) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::figures_test

@@ -9,7 +9,7 @@
 #include "base/constants.h"
 #include "tests/report/same_json.h"
 
-namespace papilla::tests {
+namespace papilla::tests::fit_test {
 namespace {
 
 struct Fitted {
@@ -220,4 +220,4 @@ TEST(FitReport, EndsOfRowsThatAreOpenAreSaidSo) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::fit_test

@@ -14,7 +14,7 @@
 
 #include "geometry/io/files.h"
 
-namespace papilla::tests {
+namespace papilla::tests::legend_test {
 namespace {
 
 // How letters look: each the seven lines below its own name.
@@ -161,4 +161,4 @@ TEST(Legends, HaveTheColoursOfTheirFieldFromLeastToMost) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::legend_test

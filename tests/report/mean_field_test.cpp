@@ -6,7 +6,7 @@
 #include "report/persson.h"
 #include "tests/report/same_json.h"
 
-namespace papilla::tests {
+namespace papilla::tests::mean_field_test {
 namespace {
 
 MeanFieldPoint point() {
@@ -140,4 +140,4 @@ TEST(MeanFieldReport, SaysWhatHasNoNumberAndWhatIsHeld) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::mean_field_test

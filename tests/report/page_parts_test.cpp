@@ -28,7 +28,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::page_parts_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -417,4 +417,4 @@ TEST(Pages, OfAnUnfinishedSearchHoldItsStudy) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::page_parts_test

@@ -7,7 +7,7 @@
 #include "design/design.h"
 #include "report/page_data.h"
 
-namespace papilla::tests {
+namespace papilla::tests::page_test {
 namespace {
 
 // Wide holes leave narrow walls: more than half of the surface is deep.
@@ -30,4 +30,4 @@ TEST(Section, IsOfShapesOnALatticeAlone) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::page_test

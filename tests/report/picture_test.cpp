@@ -13,7 +13,7 @@
 #include "tests/report/pixels.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::picture_test {
 namespace {
 
 std::vector<int> decoded(const std::string& text) {
@@ -142,4 +142,4 @@ TEST(DropletPictures, AFilmCoversItsPixels) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::picture_test

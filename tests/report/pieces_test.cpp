@@ -8,7 +8,7 @@
 #include "report/droplets.h"
 #include "tests/report/same_json.h"
 
-namespace papilla::tests {
+namespace papilla::tests::pieces_test {
 namespace {
 
 struct Pressed {
@@ -293,4 +293,4 @@ TEST(SolvedPieces, PlacementsOfDropletsWithTheirErrors) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::pieces_test

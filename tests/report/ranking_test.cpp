@@ -12,7 +12,7 @@
 #include "base/text.h"
 #include "tests/report/same_json.h"
 
-namespace papilla::tests {
+namespace papilla::tests::ranking_test {
 namespace {
 
 struct Ranked {
@@ -239,4 +239,4 @@ TEST(RankingReport, DesignsAreFilesByTheirNumbers) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::ranking_test

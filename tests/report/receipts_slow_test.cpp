@@ -13,7 +13,7 @@
 #include "search/protocol.h"
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::receipts_slow_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -270,4 +270,4 @@ TEST_F(ReceiptsOfARun, AreVerifiedByTheCommandOneAtATimeAndAll) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::receipts_slow_test

@@ -10,7 +10,7 @@
 #include "report/text_difference.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::receipts_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -92,4 +92,4 @@ TEST(TextDifference, IsToldWhereAWordIsMissing) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::receipts_test

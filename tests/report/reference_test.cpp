@@ -12,7 +12,7 @@
 #include "report/markup.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::reference_test {
 namespace {
 
 std::string refusal(const std::string& section) {
@@ -182,4 +182,4 @@ TEST(Markup, OfMarkdownHasItsHeadingsParagraphsAndTables) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::reference_test

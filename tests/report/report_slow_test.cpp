@@ -8,7 +8,7 @@
 #include "base/digest.h"
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::report_slow_test {
 namespace {
 
 // A run that all tests of the suite read.
@@ -166,4 +166,4 @@ first_skin = 70
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::report_slow_test

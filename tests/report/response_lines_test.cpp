@@ -10,7 +10,7 @@
 #include "report/sweep.h"
 #include "tests/report/same_json.h"
 
-namespace papilla::tests {
+namespace papilla::tests::response_lines_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -282,4 +282,4 @@ TEST(ResponseDocuments, APlanIsADocumentOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::response_lines_test

@@ -9,7 +9,7 @@
 #include "report/sweep.h"
 #include "tests/report/same_json.h"
 
-namespace papilla::tests {
+namespace papilla::tests::response_test {
 namespace {
 
 // The quantities of a point by their place in the table: 100, 101, ... thousandths.
@@ -320,4 +320,4 @@ TEST(ResponseReport, StepsOfTheFingerHaveALine) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::response_test

@@ -6,7 +6,7 @@
 #include "report/schema.h"
 #include "tests/cli/program.h"
 
-namespace papilla::tests {
+namespace papilla::tests::schema_slow_test {
 namespace {
 
 TEST(JsonSchema, AcceptsEveryDesignAndRefusesTwoHundredMutants) {
@@ -29,4 +29,4 @@ TEST(JsonSchema, TellsEditorsWhatAKeyMeans) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::schema_slow_test

@@ -12,7 +12,7 @@
 #include "geometry/texture.h"
 #include "tests/report/same_json.h"
 
-namespace papilla::tests {
+namespace papilla::tests::schema_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -229,4 +229,4 @@ TEST(JsonSchema, FingersAndScenariosAreLists) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::schema_test

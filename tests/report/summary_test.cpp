@@ -23,7 +23,7 @@
 #include "tests/support/without_belief.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::summary_test {
 namespace {
 
 // Of period, diameter, depth and contact angle; more mean(modulation), less variation of it.
@@ -536,4 +536,4 @@ TEST(RunSummary, EveryNumberOfTheFirstScreenHasAReceipt) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::summary_test

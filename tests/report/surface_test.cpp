@@ -14,7 +14,7 @@
 #include "tests/report/same_json.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::surface_test {
 namespace {
 
 // Two rows of 144 pixels of 0.25 x 0.5 um: the first all 0, the second in pairs about 100 and 301.5
@@ -210,4 +210,4 @@ TEST(SurfaceReport, AFileIsReadWithItsTip) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::surface_test

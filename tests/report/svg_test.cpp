@@ -17,7 +17,7 @@
 #include "report/response.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::svg_test {
 namespace {
 
 using Matches = std::vector<std::vector<std::string>>;
@@ -316,4 +316,4 @@ TEST(SvgPictures, TicksAreRoundAtEverySize) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::svg_test

@@ -17,7 +17,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::tables_test {
 namespace {
 
 std::string written(const std::string& text) {
@@ -78,4 +78,4 @@ TEST(ExportFormats, AreJudgedByTheMostExactFileThereIs) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::tables_test

@@ -15,7 +15,7 @@
 #include "report/surface.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::text_borders_test {
 namespace {
 
 TEST(TextBorders, BarsThatFollowEachOtherAreAllEscaped) {
@@ -191,4 +191,4 @@ TEST(TextBorders, ABridgeThatRepelsByNothingAttracts) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::text_borders_test

@@ -21,7 +21,7 @@
 #include "tests/support/without_belief.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::undriven_run_test {
 namespace {
 
 // Less friction and less variation of it, by the diameter, the depth and the contact angle.
@@ -265,4 +265,4 @@ TEST(UndrivenRun, ItsTablesHaveTheParametersAndNoModulation) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::undriven_run_test

@@ -21,7 +21,7 @@
 #include "tests/support/golden.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::whole_picture_test {
 namespace {
 
 SvgSeries series(std::string name, std::vector<double> x, std::vector<double> y) {
@@ -263,4 +263,4 @@ TEST(WholePictures, ARadarOfFourCriteria) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::whole_picture_test

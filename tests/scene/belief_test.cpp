@@ -12,7 +12,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::belief_test {
 namespace {
 
 constexpr const char* kTwo = R"(schema_version = 1
@@ -160,4 +160,4 @@ TEST_F(BeliefFile, AMistakeIsToldWhenTheFingerIsRead) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::belief_test

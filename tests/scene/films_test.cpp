@@ -11,7 +11,7 @@
 #include "scene/uncertainty.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::films_test {
 namespace {
 
 FilmDielectric layer(double thickness, LayerProcess process) {
@@ -162,4 +162,4 @@ TEST(Uncertainty, WhatItCannotBeIsSaid) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::films_test

@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace papilla::tests {
+namespace papilla::tests::hydration_test {
 namespace {
 
 // Every ratio that a file may hold, from dry air to saturation.
@@ -121,4 +121,4 @@ TEST(Touch, ActsOnWhatTheStateLeavesInBalanceWithTheAir) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::hydration_test

@@ -6,7 +6,7 @@
 #include "config/describe.h"
 #include "scene/scene.h"
 
-namespace papilla::tests {
+namespace papilla::tests::list_items_test {
 namespace {
 
 // Key, kind, range, default and source, a line each.
@@ -52,4 +52,4 @@ TEST(ListItems, OfAnUncertaintyAreItsNumbers) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::list_items_test

@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "scene/environment.h"
 
-namespace papilla::tests {
+namespace papilla::tests::relaxation_test {
 namespace {
 
 Relaxation relaxation(RelaxationLaw law, double infinite, double time, double alpha = 0) {
@@ -78,4 +78,4 @@ TEST(Saturation, TheWeakestLayerHoldsTheFieldInTheAir) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::relaxation_test

@@ -11,7 +11,7 @@
 #include "report/reference.h"
 #include "scene/uncertainty.h"
 
-namespace papilla::tests {
+namespace papilla::tests::scene_test {
 namespace {
 
 TEST(Finger, SoftensByItsRatioBetween15And75Percent) {
@@ -215,4 +215,4 @@ TEST(Uncertainty, WhatContradictsItselfOrNamesNothingIsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::scene_test

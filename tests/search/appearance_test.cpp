@@ -8,7 +8,7 @@
 #include "search/problem.h"
 #include "search/task.h"
 
-namespace papilla::tests {
+namespace papilla::tests::appearance_test {
 namespace {
 
 Study transparent_glass(const std::vector<std::string>& overrides = {}) {
@@ -101,4 +101,4 @@ TEST(AppearanceInStudies, AFilledTextureLosesItsHazeAndSaysThatTheFingerFeelsItO
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::appearance_test

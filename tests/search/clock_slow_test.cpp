@@ -9,7 +9,7 @@
 #include "search/run.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::clock_slow_test {
 namespace {
 
 // Pillars whose two scattering numbers make five tasks of each design: one design was searched in a
@@ -86,4 +86,4 @@ TEST(Clock, ARunEndsInItsTimeAndHasSearchedForMostOfIt) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::clock_slow_test

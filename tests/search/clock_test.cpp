@@ -15,7 +15,7 @@
 #include "search/run.h"
 #include "tests/support/without_belief.h"
 
-namespace papilla::tests {
+namespace papilla::tests::clock_test {
 namespace {
 
 Study holes() {
@@ -279,4 +279,4 @@ TEST(Clock, EachLaterPartKeepsItsShareOrWhatItWants) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::clock_test

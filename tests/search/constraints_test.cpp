@@ -13,7 +13,7 @@
 #include "search/problem.h"
 #include "tests/support/without_belief.h"
 
-namespace papilla::tests {
+namespace papilla::tests::constraints_test {
 namespace {
 
 Study limited(const std::vector<Constraint>& constraints) {
@@ -251,4 +251,4 @@ TEST(Constraints, ThatContradictEachOtherAreNamedWithWhatThereIs) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::constraints_test

@@ -13,7 +13,7 @@
 #include "scene/belief.h"
 #include "tests/search/small_study.h"
 
-namespace papilla::tests {
+namespace papilla::tests::decision_slow_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,4 +74,4 @@ TEST(DecisionSlow, AHypothesisOverturnsTheOrderAndAKilledRunDecidesTheSame) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::decision_slow_test

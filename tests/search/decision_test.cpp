@@ -14,7 +14,7 @@
 #include "search/levels.h"
 #include "tests/search/formula_run.h"
 
-namespace papilla::tests {
+namespace papilla::tests::decision_test {
 namespace {
 
 // Three members: the third is another law of the air. weight: its own.
@@ -279,4 +279,4 @@ TEST(Decision, AMemberMovesSizesByAFactorAndSpreadsByADifference) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::decision_test

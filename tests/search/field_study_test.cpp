@@ -19,7 +19,7 @@
 #include "search/task.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::field_study_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -239,4 +239,4 @@ TEST(FieldStudy, AConstraintOnAnUnknownMetricIsAMistakeAtItsPlace) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::field_study_test

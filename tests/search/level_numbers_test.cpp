@@ -11,7 +11,7 @@
 #include "search/stability.h"
 #include "tests/support/without_belief.h"
 
-namespace papilla::tests {
+namespace papilla::tests::level_numbers_test {
 namespace {
 
 Study one_finger() {
@@ -168,4 +168,4 @@ TEST(LevelNumbers, TheSmallestFeatureIsThatOfTheLimitOrOfACorner) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::level_numbers_test

@@ -19,7 +19,7 @@
 #include "search/task.h"
 #include "tests/search/small_study.h"
 
-namespace papilla::tests {
+namespace papilla::tests::optimise_slow_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -363,4 +363,4 @@ TEST(Optimise, TheSurfaceWithoutTextureIsJudgedOnTheSkinsOfTheTexture) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::optimise_slow_test

@@ -18,7 +18,7 @@
 #include "tests/search/small_study.h"
 #include "tests/support/without_belief.h"
 
-namespace papilla::tests {
+namespace papilla::tests::optimise_test {
 namespace {
 
 std::string response_text(const Response& response) { return response_json(response, false); }
@@ -236,4 +236,4 @@ TEST(Results, DifferencesAreSaidToBeBetterKnownWhereTheyAre) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::optimise_test

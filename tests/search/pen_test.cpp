@@ -9,7 +9,7 @@
 #include "tests/search/small_study.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests {
+namespace papilla::tests::pen_test {
 namespace {
 
 Pin polymer() {
@@ -90,4 +90,4 @@ TEST(PenStudy, APinStandsInPlaceOfFingers) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::pen_test

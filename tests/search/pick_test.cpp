@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 
-namespace papilla::tests {
+namespace papilla::tests::pick_test {
 namespace {
 
 const std::vector<std::string> kNames{"mean(modulation)", "variation(modulation)"};
@@ -37,4 +37,4 @@ TEST(Pick, UnknownRulesAreRefused) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::pick_test

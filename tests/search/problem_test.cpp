@@ -18,7 +18,7 @@
 #include "tests/support/refusal.h"
 #include "tests/support/without_belief.h"
 
-namespace papilla::tests {
+namespace papilla::tests::problem_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -467,4 +467,4 @@ TEST(Samples, OfTheWorstHumidityAreItsOwn) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::problem_test

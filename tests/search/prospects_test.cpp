@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/random.h"
 
-namespace papilla::tests {
+namespace papilla::tests::prospects_test {
 namespace {
 
 using Matrix = std::vector<std::vector<double>>;
@@ -192,4 +192,4 @@ TEST(Prospects, AreTrueAsOftenAsTheySayOfTruthsDrawnFromBelief) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::prospects_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace papilla::tests {
+namespace papilla::tests::protocol_test {
 namespace {
 
 TaskAnswer full_answer() {
@@ -77,4 +77,4 @@ TEST(Protocol, AFailureOfAWorkerIsAStatus) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::protocol_test

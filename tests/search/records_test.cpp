@@ -11,7 +11,7 @@
 #include "search/replay.h"
 #include "tests/search/small_study.h"
 
-namespace papilla::tests {
+namespace papilla::tests::records_test {
 namespace {
 
 class Records : public ::testing::Test {
@@ -138,4 +138,4 @@ TEST_F(Records, AreAskedOfBeforeARunGoesOn) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::records_test

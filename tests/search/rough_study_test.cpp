@@ -10,7 +10,7 @@
 #include "search/run.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::rough_study_test {
 namespace {
 
 const std::string kRough = R"(type = "random_rough"
@@ -115,4 +115,4 @@ TEST(RoughStudy, ASearchMakesAllEvaluationsThatItWasAskedFor) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::rough_study_test

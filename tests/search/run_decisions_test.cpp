@@ -13,7 +13,7 @@
 #include "search/levels.h"
 #include "tests/search/formula_run.h"
 
-namespace papilla::tests {
+namespace papilla::tests::run_decisions_test {
 namespace {
 
 // By depth from flat on, and contact angle.
@@ -270,4 +270,4 @@ TEST(RunDecisions, WhatDecidesTheResultIsInTheKeyOfTheJournal) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::run_decisions_test

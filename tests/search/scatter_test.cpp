@@ -10,7 +10,7 @@
 #include "search/problem.h"
 #include "search/task.h"
 
-namespace papilla::tests {
+namespace papilla::tests::scatter_test {
 namespace {
 
 const std::string kStudy = PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml";
@@ -174,4 +174,4 @@ TEST(Scatter, TheSampleOfATailLiesOnTheQuadratic) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::scatter_test

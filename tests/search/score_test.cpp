@@ -12,7 +12,7 @@
 #include "search/sensitivity.h"
 #include "tests/support/without_belief.h"
 
-namespace papilla::tests {
+namespace papilla::tests::score_test {
 namespace {
 
 Study default_study() {
@@ -334,4 +334,4 @@ TEST(Space, LooksAreAskedForBeforeAnEvaluationOnlyWhereTheyAreLimited) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::score_test

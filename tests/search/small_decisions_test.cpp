@@ -26,7 +26,7 @@
 #include "tests/support/without_belief.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::small_decisions_test {
 namespace {
 
 // So many numbers, uniform and independent.
@@ -430,4 +430,4 @@ TEST(DifferingKeys, AreNamedByTheirTables) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::small_decisions_test

@@ -12,7 +12,7 @@
 #include "search/problem.h"
 #include "tests/support/without_belief.h"
 
-namespace papilla::tests {
+namespace papilla::tests::space_of_kinds_test {
 namespace {
 
 double kind_of(const std::string& name) {
@@ -191,4 +191,4 @@ TEST(LimitBorders, AFrequencyIsFeltAboveACornerOfOneHertz) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::space_of_kinds_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/without_belief.h"
 
-namespace papilla::tests {
+namespace papilla::tests::stability_test {
 namespace {
 
 // A flat surface against the deepest holes of the samples, judged by the mean alone: texture never
@@ -43,4 +43,4 @@ TEST(Stability, TheFlatSurfaceHasTheHighestMeanUnderEveryVariant) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::stability_test

@@ -16,7 +16,7 @@
 #include "tests/search/formula_run.h"
 #include "tests/search/small_study.h"
 
-namespace papilla::tests {
+namespace papilla::tests::stages_test {
 namespace {
 
 using Formula = TaskFormula;
@@ -562,4 +562,4 @@ TEST(Stages, DraftsSteerAndAreNoEvaluations) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::stages_test

@@ -5,7 +5,7 @@
 
 #include "tests/search/direct_plates.h"
 
-namespace papilla::tests {
+namespace papilla::tests::yield_slow_test {
 namespace {
 
 // Within three points of 2,000 plates; half of the tolerance that is said to cost most gains most.
@@ -23,4 +23,4 @@ TEST(Yield, IsThatOfPlatesEvaluatedOneByOne) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::yield_slow_test

@@ -15,7 +15,7 @@
 #include "search/problem.h"
 #include "search/protocol.h"
 
-namespace papilla::tests {
+namespace papilla::tests::yield_test {
 namespace {
 
 // Holes of 4.4 um every 5 um: walls of 0.6 um.
@@ -231,4 +231,4 @@ TEST(Yield, WhatCannotBeIsRefusedWithTheWayOut) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::yield_test

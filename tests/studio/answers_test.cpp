@@ -13,7 +13,7 @@
 #include "tests/studio/loopback.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::answers_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -176,4 +176,4 @@ TEST_F(Answers, AreToldAsOneLineEach) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::answers_test

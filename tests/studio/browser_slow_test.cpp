@@ -3,7 +3,7 @@
 
 #include "tests/studio/in_browser.h"
 
-namespace papilla::tests {
+namespace papilla::tests::browser_slow_test {
 namespace {
 
 TEST(StudioInChromium, AnswersSlidersAndKeysInLightAndDarkWideAndNarrow) {
@@ -13,4 +13,4 @@ TEST(StudioInChromium, ShowsOneStateToTwoPagesAndToOneThatComesBack) { expect_in
 TEST(StudioInChromium, AnswersTheLastOfAThousandEvents) { expect_in_browser("thousand"); }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::browser_slow_test

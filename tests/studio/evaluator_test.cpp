@@ -15,7 +15,7 @@
 #include "forward/forward.h"
 #include "metrics/metrics.h"
 
-namespace papilla::tests {
+namespace papilla::tests::evaluator_test {
 namespace {
 
 // What was told, in its order.
@@ -166,4 +166,4 @@ TEST(Evaluator, AnswersEachWishAtOnce) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::evaluator_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace papilla::tests {
+namespace papilla::tests::events_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -34,4 +34,4 @@ TEST(Events, TellNothingAfterTheirEnd) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::events_test

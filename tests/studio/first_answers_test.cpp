@@ -9,7 +9,7 @@
 #include "config/describe.h"
 #include "studio/first_answer.h"
 
-namespace papilla::tests {
+namespace papilla::tests::first_answers_test {
 namespace {
 
 const std::string kHoles = PAPILLA_DESIGNS_DIR "/m3_samples/a3h600.toml";
@@ -157,4 +157,4 @@ TEST(FirstAnswers, ADistanceAddsTheLogarithmsOfItsNumbers) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::first_answers_test

@@ -14,7 +14,7 @@
 #include "studio/safety.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::form_test {
 namespace {
 
 using Type = KeyType;
@@ -29,7 +29,7 @@ FormKey key_of(Type type, const std::string& unit) {
 // The text of the setting; "refused" where it is no value of the key.
 std::string written(const FormKey& key, const std::string& text) {
   try {
-    const Change change = checked_change({key}, "a.key", text);
+    const studio::Change change = checked_change({key}, "a.key", text);
     EXPECT_EQ(change.path, "a.key");
     return change.text;
   } catch (const InputError&) {
@@ -90,7 +90,7 @@ TEST(FormValues, AreShortAndOfAKeyThatIsThere) {
 TEST(FormSliders, GoAroundTheValueThatTheFileHad) {
   Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_samples/a3h600.toml");
   const Design opened = study.design;
-  const auto row = [&](const std::string& path, const std::vector<Change>& changes = {}) {
+  const auto row = [&](const std::string& path, const std::vector<studio::Change>& changes = {}) {
     for (const auto& r : form_json(study, opened, changes)) {
       if (r["path"] == path) return r;
     }
@@ -161,4 +161,4 @@ TEST(Inside, TakesPlainLettersAlone) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::form_test

@@ -13,7 +13,7 @@
 #include "tests/studio/loopback.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::hostile_slow_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -215,4 +215,4 @@ TEST(HostileRequests, NeitherEndTheStudioNorTouchWhatIsOutside) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::hostile_slow_test

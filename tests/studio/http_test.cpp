@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "tests/studio/loopback.h"
 
-namespace papilla::tests {
+namespace papilla::tests::http_test {
 namespace {
 
 class Http : public ::testing::Test {
@@ -137,4 +137,4 @@ TEST_F(Http, AnswersSeveralRequestsOfAConnection) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::http_test

@@ -12,7 +12,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::lab_desk_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -109,4 +109,4 @@ TEST_F(LabOfASearch, RefusesWhatCannotBeTold) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::lab_desk_test

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::safety_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -93,4 +93,4 @@ TEST(Inside, RefusesWhatLeadsOut) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::safety_test

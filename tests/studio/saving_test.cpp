@@ -15,7 +15,7 @@
 #include "tests/io/instrument_bytes.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::saving_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,7 +76,7 @@ TEST(EditedToml, QuotesWhatIsNoValueOfToml) {
 }
 
 TEST(EditedToml, ANewKeyStandsBehindTheLastThatItsSectionSays) {
-  const std::vector<Change> x{{"a.x", "1"}};
+  const std::vector<studio::Change> x{{"a.x", "1"}};
   for (const auto& [before, after] :
        {std::pair{"", "[a]\nx = 1\n"},
         {"b = 2", "b = 2\n\n[a]\nx = 1\n"},
@@ -275,7 +275,7 @@ TEST_F(Saving, AScanOfSeveralChannelsIsTheNamedOne) {
   EXPECT_THROW(files_.with_scan({shipped_, {}}, "scans/two.gwy", "", false, true), InputError);
   const Draft draft = files_.with_scan({shipped_, {}}, "scans/two.gwy::Backward", "", false, true);
   const auto file = std::find_if(draft.changes.begin(), draft.changes.end(),
-                                 [](const Change& c) { return c.path == "texture.file"; });
+                                 [](const studio::Change& c) { return c.path == "texture.file"; });
   ASSERT_NE(file, draft.changes.end());
   EXPECT_NE(file->text.find("scans/two.gwy::Backward"), std::string::npos) << file->text;
   EXPECT_NE(save(draft, "named.toml").find("file = \"scans/two.gwy::Backward\""),
@@ -295,21 +295,21 @@ TEST_F(Saving, AScanIsADraftOfWhatWasAskedOfIt) {
     return files_.with_scan(from, name, size, fill, as_is).changes;
   };
   const std::string folder = fs::weakly_canonical(place_.path()).string() + "/scans/";
-  const Change voltage{"drive.amplitude", "120 V"}, type{"texture.type", "measured"},
+  const studio::Change voltage{"drive.amplitude", "120 V"}, type{"texture.type", "measured"},
       gsf{"texture.file", '"' + folder + "map.gsf\""},
       npy{"texture.file", '"' + folder + "map.npy\""};
   EXPECT_EQ(changes("scans/map.gsf", "", false, false),
-            (std::vector<Change>{voltage, type, gsf, {"texture.patch", "8 um"}}));
+            (std::vector<studio::Change>{voltage, type, gsf, {"texture.patch", "8 um"}}));
   EXPECT_EQ(changes("scans/map.gsf", "", true, false),
-            (std::vector<Change>{
+            (std::vector<studio::Change>{
                 voltage, type, gsf, {"texture.fill", "true"}, {"texture.patch", "8 um"}}));
   EXPECT_EQ(changes("scans/map.npy", "12 um", false, true),
-            (std::vector<Change>{voltage,
-                                 type,
-                                 npy,
-                                 {"texture.width", "12 um"},
-                                 {"texture.as_is", "true"},
-                                 {"texture.patch", "12 um"}}));
+            (std::vector<studio::Change>{voltage,
+                                         type,
+                                         npy,
+                                         {"texture.width", "12 um"},
+                                         {"texture.as_is", "true"},
+                                         {"texture.patch", "12 um"}}));
   EXPECT_THROW(changes("scans/map.npy", "-1 um", false, true), InputError);
   EXPECT_THROW(changes("scans/map.npy", "1 V", false, true), InputError);
 }
@@ -328,7 +328,7 @@ TEST_F(Saving, APatchOfAScanIsAsLargeAsTheScanAtMost24um) {
     const Draft draft = files_.with_scan({shipped_, {{"texture.depth", "1 nm"}}}, "scans/map.gsf",
                                          "", false, false);
     std::string patch;
-    for (const Change& c : draft.changes) {
+    for (const studio::Change& c : draft.changes) {
       EXPECT_NE(c.path, "texture.depth");  // of the texture before
       if (c.path == "texture.patch") patch = c.text;
     }
@@ -338,4 +338,4 @@ TEST_F(Saving, APatchOfAScanIsAsLargeAsTheScanAtMost24um) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::saving_test

@@ -13,7 +13,7 @@
 #include "tests/studio/loopback.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::server_test {
 namespace {
 
 class Server : public ::testing::Test {
@@ -270,4 +270,4 @@ TEST_F(Server, CutsALongHead) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::server_test

@@ -12,7 +12,7 @@
 #include "config/describe.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::session_test {
 namespace {
 
 const std::string kHoles = PAPILLA_DESIGNS_DIR "/m3_samples/a3h600.toml";
@@ -201,7 +201,8 @@ TEST(Session, WhatChangesNothingIsNoStep) {
   EXPECT_EQ(session.reset("texture.depth"), revision + 1);
   EXPECT_TRUE(session.view().draft.changes.empty());
   session.undo();
-  EXPECT_EQ(session.view().draft.changes, (std::vector<Change>{{"texture.depth", "500 nm"}}));
+  EXPECT_EQ(session.view().draft.changes,
+            (std::vector<studio::Change>{{"texture.depth", "500 nm"}}));
   session.become({PAPILLA_DESIGNS_DIR "/m3_samples/flat.toml", {}});
   EXPECT_EQ(texture_name(session.view().study.design.texture), "flat");
   EXPECT_EQ(texture_name(session.view().opened.texture), "flat");
@@ -374,7 +375,7 @@ TEST(Changes, MakeOneDesignOfAnother) {
                             "/hydrophobic_glass/study.toml", "/coatings/crowded.toml"}) {
     const Design to = read_design(std::string(PAPILLA_DESIGNS_DIR) + other);
     std::vector<std::string> settings;
-    for (const Change& c : changes_between(from, to)) {
+    for (const studio::Change& c : changes_between(from, to)) {
       if (!c.path.starts_with("surface.dielectric")) settings.push_back(c.setting());
     }
     const Design made = read_design(kHoles, settings);
@@ -405,4 +406,4 @@ TEST(Form, NamesEveryNumberWithItsUnitAndRange) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::session_test

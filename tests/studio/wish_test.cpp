@@ -18,7 +18,7 @@
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
-namespace papilla::tests {
+namespace papilla::tests::wish_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -668,4 +668,4 @@ TEST(SearchDesk, ASearchWithoutAnEndFailed) {
 }
 
 }  // namespace
-}  // namespace papilla::tests
+}  // namespace papilla::tests::wish_test
