@@ -54,13 +54,23 @@ const Node* find_path(const Node& root, const std::string& path) {
 constexpr std::array<std::string_view, 9> kMapEndings{".gsf", ".npy", ".exr", ".tif", ".tiff",
                                                       ".x3p", ".gwy", ".sur", ".sdf"};
 
+// What somebody means who names a folder: of designs, or of the results of a search.
+constexpr std::array<const char*, 4> kFilesOfAFolder{"design.toml", "study.toml", "best/build.toml",
+                                                     "resolved.toml"};
+
 std::string read_text(const std::string& path) {
   constexpr std::uintmax_t kLargest = 16 << 20;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw InputError({Problem{path, 0, 0, "", "no such file"}});
   if (fs::is_directory(status)) {
-    throw InputError({Problem{path, 0, 0, "", "is a folder, expected a TOML file"}});
+    std::vector<std::string> inside;
+    for (const char* name : kFilesOfAFolder) {
+      if (fs::is_regular_file(fs::path(path) / name, error)) inside.emplace_back(name);
+    }
+    throw InputError({Problem{path, 0, 0, "",
+                              "is a folder, expected a TOML file" +
+                                  (inside.empty() ? "" : ": it has " + join_names(inside))}});
   }
   const std::string ending = fs::path(path).extension().string();
   if (std::find(kMapEndings.begin(), kMapEndings.end(), ending) != kMapEndings.end()) {

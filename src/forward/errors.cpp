@@ -13,7 +13,8 @@ constexpr int kSmallestGrid = 16;  // of the control run on half the pixels; bel
 // What is missing to the limit over the last halving of the pixel: order 1.3 for the pull, 1.5 for
 // other quantities. Training scenes of docs/theory/accuracy.md
 constexpr double kPullToLimit = 0.7, kOtherToLimit = 0.55;
-// Contact areas: of the octaves left out, so many at least.
+// Contact areas: of the octaves left out, so many at least; fewer by as much as half the pixels
+// leave out less than one.
 constexpr double kFewestOctaves = 0.6;
 // What they are too large by through octaves that are left out is taken off; so much of it, one
 // standard deviation, is not known.
@@ -83,6 +84,11 @@ double missing_of_features(double pixels) {
          std::max(1.0, kLostFeature / std::max(pixels, 1.0));  // walls that meet leave no floor
 }
 
+// Of the skin's spectrum. Eq. accuracy.2
+double octaves_left_out(const Plan& plan) {
+  return std::max(0.0, std::log2(plan.effective_cutoff / plan.skin_cutoff));
+}
+
 // Of a step between two grids, what is the features' own: all where both resolve the skin alike.
 // It is the step that drops waves of the skin, whether or not the finer grid has all of them.
 double own_step(const Plan& fine, const Plan& coarse) {
@@ -139,13 +145,10 @@ ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity, co
     // it.
     if (quantity == GridLaw::Pull) missing = std::max(kPullToLimit, runs.octaves);
     if (quantity == GridLaw::Modulation) missing *= std::max(runs.octaves, 1.0);
-    // The step over a grid that resolves the cut-off says how much the area depends on that, not
-    // how well it is resolved; that of coarse features counts on any.
-    if (quantity == GridLaw::Area && runs.octaves == 0) {
-      missing = runs.coarse_features;
-    } else if (quantity == GridLaw::Area) {
+    if (quantity == GridLaw::Area) {
       const double step = grid_error(out.halving);
-      const double all = left_out_of(step, std::max(runs.octaves, kFewestOctaves));
+      const double fewest = kFewestOctaves * std::min(1.0, runs.coarse_octaves);
+      const double all = left_out_of(step, std::max(runs.octaves, fewest));
       missing = all - (1 - kNotKnown) * left_out_of(step, runs.octaves);
       missing = std::max(missing, runs.coarse_features);
       scatter = std::max(0.0, all - missing);
@@ -198,8 +201,7 @@ class Controls {
     PatchSet first = patches;
     for (auto& results : first.results) results.resize(static_cast<std::size_t>(skins_));
     out.own = respond(scene_, fidelity_, first);
-    out.octaves =
-        std::max(0.0, std::log2(patches.plan.effective_cutoff / patches.plan.skin_cutoff));
+    out.octaves = octaves_left_out(patches.plan);
     Fidelity resolved = fidelity_;
     if (fidelity_.estimator == Estimator::Load && (patches.plan.water || patches.plan.field)) {
       resolved.estimator = Estimator::Area;
@@ -218,6 +220,7 @@ class Controls {
       half.most_pixels = fidelity_.pixels_per_side() / 2;  // else long patches keep their pixels
       const PatchSet coarse = again(half, grid);
       out.coarse = respond(scene_, half, coarse);
+      out.coarse_octaves = octaves_left_out(coarse.plan);
       out.coarse_features =
           missing_of_features(patches.plan.feature_pixels) * own_step(patches.plan, coarse.plan);
     }

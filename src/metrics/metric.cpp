@@ -29,9 +29,15 @@ Row row(const char* name, Better better, Measured PointQuantities::*quantity) {
   return {};
 }
 
-Row row(const char* name, Better better, double Look::*number, const char* doc) {
+Row look(const char* name, Better better, double Look::*number, const char* doc) {
   return {LookMetric{number},
           {.name = name, .unit = "", .doc = doc, .better = better, .appearance = true}};
+}
+
+Row light(const char* name, Better better, double Look::*number, const char* doc) {
+  Row out = look(name, better, number, doc);
+  out.info.share_of_light = true;
+  return out;
 }
 
 const std::vector<Row>& rows() {
@@ -52,24 +58,26 @@ const std::vector<Row>& rows() {
       {Compliance{},
        {"compliance", "m/Pa", "indentation since first touch over patch pressure",
         Better::Neither}},
-      row("haze", Better::Lower, &Look::haze,
-          "share of the transmitted light beyond the cone of the view, 2.5 deg (ASTM D1003, ISO "
-          "14782)"),
-      row("transmittance", Better::Higher, &Look::transmittance,
-          "undeviated share of the light on the plate (regular transmittance)"),
-      row("total_transmittance", Better::Higher, &Look::total_transmittance,
-          "all of the light through the plate over that on it (ISO 13468)"),
-      row("gloss", Better::Higher, &Look::gloss, "gloss units at 60 deg (ISO 2813)"),
-      row("gloss_20", Better::Higher, &Look::gloss_20, "gloss units at 20 deg (ISO 2813)"),
-      row("gloss_85", Better::Higher, &Look::gloss_85, "gloss units at 85 deg (ISO 2813)"),
-      row("distinctness", Better::Higher, &Look::distinctness,
+      light("haze", Better::Lower, &Look::haze,
+            "share of the transmitted light beyond the cone of the view, 2.5 deg (ASTM D1003, ISO "
+            "14782)"),
+      light("transmittance", Better::Higher, &Look::transmittance,
+            "undeviated share of the light on the plate (regular transmittance)"),
+      light("total_transmittance", Better::Higher, &Look::total_transmittance,
+            "all of the light through the plate over that on it (ISO 13468)"),
+      look("gloss", Better::Higher, &Look::gloss, "gloss units at 60 deg (ISO 2813)"),
+      look("gloss_20", Better::Higher, &Look::gloss_20, "gloss units at 20 deg (ISO 2813)"),
+      look("gloss_85", Better::Higher, &Look::gloss_85, "gloss units at 85 deg (ISO 2813)"),
+      light(
+          "distinctness", Better::Higher, &Look::distinctness,
           "distinctness of the reflected image: 1 less the light 0.3 deg off the mirror direction "
           "over that in it, at 20 deg (after ASTM D5767)"),
-      row("sparkle", Better::Lower, &Look::sparkle,
+      light(
+          "sparkle", Better::Lower, &Look::sparkle,
           "standard deviation over mean of the light of equal subpixels of view.panel (pixel power "
           "deviation)"),
-      row("colour_shift", Better::Lower, &Look::colour_shift,
-          "CIE 1976 u'v' distance of the undeviated light from the source"),
+      look("colour_shift", Better::Lower, &Look::colour_shift,
+           "CIE 1976 u'v' distance of the undeviated light from the source"),
       {SourceAmplitude{},
        {"drive.amplitude", "V",
         "amplitude of the source: the design's; under current control what the "

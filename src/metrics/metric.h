@@ -65,6 +65,7 @@ struct MetricInfo {
   Better better = Better::Neither;
   bool needs_drive = false;
   bool appearance = false;        // a LookMetric
+  bool share_of_light = false;    // people read it in per cent
   bool takes_modulation = false;  // its text has a modulation in brackets
 };
 const std::vector<MetricInfo>& metric_list();

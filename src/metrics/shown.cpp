@@ -7,17 +7,6 @@
 namespace papilla::metrics {
 namespace {
 
-// Shares of light are read in hundredths.
-bool share_of_light(const Metric& metric) {
-  const auto* look = std::get_if<LookMetric>(&metric);
-  if (!look) return false;
-  for (auto number : {&Look::haze, &Look::transmittance, &Look::total_transmittance,
-                      &Look::distinctness, &Look::sparkle}) {
-    if (look->number == number) return true;
-  }
-  return false;
-}
-
 // What people read: three decimals of a number without a unit, two of a per cent, else four digits.
 std::string in_shown_unit(const ShownUnit& shown, double si) {
   const double v = si * shown.scale + 0.0;  // a zero has no sign
@@ -30,7 +19,7 @@ std::string in_shown_unit(const ShownUnit& shown, double si) {
 ShownUnit shown_unit(const MetricExpression& e) {
   const std::string& unit = info_of(e.metric).unit;
   const bool relative = e.summary == Summary::Variation || e.summary == Summary::Range;
-  if (!relative && share_of_light(e.metric)) return {100, "%"};
+  if (!relative && info_of(e.metric).share_of_light) return {100, "%"};
   // As a share of its mean over humidity it has no unit.
   if (relative || unit.empty()) return {1, ""};
   if (unit == "N") return {1e3, "mN"};

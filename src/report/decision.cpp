@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
@@ -100,26 +101,40 @@ std::string parameter_text(const ResultFiles& f, const char* word) {
                             in_unit(p.edge, field.unit, 3)));
 }
 
+// Below this share of what the best is worth (of the knee: of the front's extent) two designs are
+// alike: nobody would build the other for it.
+constexpr double kAlike = 0.01;
+
+bool overturns(const Decision& d, const Reversal& r) {
+  if (r.best == d.best) return false;
+  const double scale = d.rule.kind == PickRule::Kind::Knee ? 1 : std::abs(d.best_worth);
+  return r.loss <= 0 || r.loss >= kAlike * scale;  // no loss: chosen for its limits
+}
+
 // Each hypothesis and the parameter that another design is better under.
 std::vector<std::string> overturned(const ResultFiles& f) {
   const Decision& d = decision_of(f);
   std::vector<std::string> out;
   for (const Reversal& r : d.hypotheses) {
-    if (r.best != d.best)
+    if (overturns(d, r))
       out.push_back(reversal_text(f, fmt::format("under hypothesis \"{}\"", r.name), r));
   }
   if (!d.parameter) return out;
   for (const auto& [half, word] :
        {std::pair(&d.parameter->low, "below"), std::pair(&d.parameter->high, "above")}) {
-    if (half->best != d.best) out.push_back(reversal_text(f, parameter_text(f, word), *half));
+    if (overturns(d, *half)) out.push_back(reversal_text(f, parameter_text(f, word), *half));
   }
   return out;
 }
 
 std::string overturned_text(const ResultFiles& f) {
   const std::vector<std::string> found = overturned(f);
-  if (found.empty()) return "no hypothesis and no half of a parameter's values changes the choice";
-  return join_names(found, "; ") + "; everything else leaves the choice";
+  if (found.empty())
+    return fmt::format(
+        "no hypothesis and no half of a parameter's values changes the choice by {:.0f} % or more",
+        100 * kAlike);
+  return join_names(found, "; ") +
+         fmt::format("; nothing else changes the choice by {:.0f} % or more", 100 * kAlike);
 }
 
 // How surely the limits hold: "" where the study has none.
@@ -133,6 +148,18 @@ std::string limits_sentence(const ResultFiles& f) {
       " It keeps every limit with probability {}, the highest of the front, where the study wants "
       "{} (risk.limits): loosen a limit or leave more room to it.",
       has, percent(wanted));
+}
+
+// Which is the best more often than the chosen one, and loses more where it is not.
+std::string oftener_sentence(const ResultFiles& f) {
+  const Decision& d = decision_of(f);
+  const auto oftener =
+      std::max_element(d.designs.begin(), d.designs.end(),
+                       [](const Prospect& a, const Prospect& b) { return a.p_best < b.p_best; });
+  const auto i = static_cast<std::size_t>(oftener - d.designs.begin());
+  if (i == d.best || !(oftener->p_best > d.designs[d.best].p_best)) return {};
+  return fmt::format(" More often the best (probability {}) is {}, with an expected regret of {}.",
+                     p_best_text(f, i), name_of(f, i), regret_text(f, i));
 }
 
 std::string chosen_how(const ResultFiles& f) {
@@ -161,7 +188,7 @@ std::string decision_sentence(const ResultFiles& f) {
         " By the numbers of the fit alone it would be {}, with an expected regret "
         "of {}.",
         name_of(f, d.nominal), regret_text(f, d.nominal));
-  return out + limits_sentence(f);
+  return out + oftener_sentence(f) + limits_sentence(f);
 }
 
 std::string decision_text(const ResultFiles& f) {

@@ -674,6 +674,11 @@ TEST(Reader, FilesThatAreNoneAreRefusedWithWhatTheyAre) {
   };
   EXPECT_EQ(why(folder.path() + "/a.toml"), "no such file");
   EXPECT_EQ(why(folder.path()), "is a folder, expected a TOML file");
+  folder.write("resolved.toml", "");
+  fs::create_directory(folder.path() + "/best");
+  folder.write("best/build.toml", "");
+  EXPECT_EQ(why(folder.path()),
+            "is a folder, expected a TOML file: it has best/build.toml, resolved.toml");
   for (const char* ending : {".gsf", ".npy", ".exr", ".tif", ".tiff", ".x3p"}) {
     const std::string map = folder.write(std::string("a") + ending, "a = 1\n");
     EXPECT_EQ(why(map), "is a map of heights, expected a TOML file; `papilla surface " + map +

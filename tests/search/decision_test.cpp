@@ -125,6 +125,38 @@ TEST(Decision, AHypothesisOfEnoughWeightOverturnsTheNumbersOfTheFit) {
   EXPECT_NE(said.find("By the numbers of the fit alone it would be"), std::string::npos) << said;
 }
 
+// As above, with the worst modulation of the third member .2 - 2 slope depth.
+TaskFormula falling(double slope) {
+  return [slope](const TaskRequest& r) {
+    TaskAnswer out = overturning(r);
+    if (r.stage == Stage::Belief) out.members[2].worst = 0.1 - slope * (r.flat ? 0 : r.unit[0]);
+    return out;
+  };
+}
+
+TEST(Decision, DoesNotNameAHypothesisThatChangesLessThanAPerCent) {
+  const BelievingRun a(believing(0.3), "decision_alike", falling(0.0005));
+  const Decision& d = a.decision();
+  EXPECT_NE(d.hypotheses[1].best, d.best);
+  EXPECT_GT(d.hypotheses[1].loss, 0);
+  EXPECT_LT(d.hypotheses[1].loss, 0.01 * d.best_worth);
+  const std::string said = report::as_read(report::decision_sentence(a.files()));
+  EXPECT_EQ(said.find("emission"), std::string::npos) << said;
+  EXPECT_NE(said.find("changes the choice by 1 % or more"), std::string::npos) << said;
+}
+
+TEST(Decision, NamesTheDesignThatIsTheBestMoreOften) {
+  const BelievingRun a(believing(0.4), "decision_more_often", falling(0.09));
+  const Decision& d = a.decision();
+  EXPECT_EQ(d.best, d.hypotheses[1].best);
+  EXPECT_NEAR(d.designs[d.best].p_best, 0.4, 1e-12);
+  const std::string said = report::as_read(report::decision_sentence(a.files()));
+  EXPECT_NE(said.find("More often the best (probability 60 %) is " +
+                      report::design_name(a.run.result.finalists[d.nominal].folder)),
+            std::string::npos)
+      << said;
+}
+
 TEST(Decision, TheRiskOfTheStudyDecides) {
   Study study = believing(0.3);
   study.risk.belief = "worst 10 %";
