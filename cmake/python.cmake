@@ -29,7 +29,7 @@ install(DIRECTORY python/papilla DESTINATION ${PAPILLA_PYTHON_DIR} COMPONENT pyt
 
 # The pytest suite in two parts: ctest -L python.
 if(PAPILLA_TESTS)
-  set(environment "PYTHONPATH=${CMAKE_BINARY_DIR}/python;PYTHONDONTWRITEBYTECODE=1;PAPILLA_PROGRAM=$<TARGET_FILE:papilla>")
+  set(environment "PYTHONPATH=${CMAKE_BINARY_DIR}/python;PYTHONDONTWRITEBYTECODE=1;OMP_WAIT_POLICY=passive;PAPILLA_PROGRAM=$<TARGET_FILE:papilla>")
   if(PAPILLA_SANITIZE)
     # The interpreter is not sanitized: it needs the sanitizer, and whose exceptions that watches, before all else. What
     # an interpreter keeps to its end is no leak of ours.

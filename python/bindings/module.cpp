@@ -30,6 +30,7 @@ void translate(std::exception_ptr thrown) {
 PYBIND11_MODULE(_native, module) {
   module.doc() = "The library behind the package papilla; call the package.";
   py::register_exception_translator(translate);
+  papilla::keep_freed_memory();
   module.attr("__version__") = papilla::version();
   module.def("in_si", &papilla::in_si, py::arg("text"), py::arg("unit"));
   module.def("quantity_text", &papilla::quantity_text, py::arg("si"), py::arg("unit"));

@@ -6,12 +6,11 @@
 #include "api/inside.h"
 #include "base/units.h"
 #include "config/describe.h"
+#include "config/node.h"
 #include "config/reader.h"
 
 namespace papilla::api {
 namespace {
-
-std::string quoted(const std::string& file) { return '"' + file + '"'; }
 
 std::shared_ptr<const Design::Inside> loaded(Design::Inside inside) {
   return across([&] {
@@ -72,7 +71,7 @@ Design Design::from_heights(const Heights& heights, const Values& values, bool r
     inside.drawn = std::make_shared<const DrawnMap>(heights);
     const std::string width = format_number(inside.drawn->width());
     inside.values = {{"texture.type", "measured"},
-                     {"texture.file", quoted(inside.drawn->file())},
+                     {"texture.file", toml_string(inside.drawn->file())},
                      {"texture.width:", width},
                      {"texture.patch:", width},
                      {"texture.as_is", repeats ? "true" : "false"}};
@@ -86,7 +85,7 @@ Design Design::parse(const std::string& toml, const Heights& heights) {
     Inside inside;
     inside.text = toml;
     inside.drawn = std::make_shared<const DrawnMap>(heights);
-    inside.values = {{"texture.file", quoted(inside.drawn->file())}};
+    inside.values = {{"texture.file", toml_string(inside.drawn->file())}};
     return Design(loaded(std::move(inside)));
   });
 }

@@ -86,16 +86,7 @@ std::string describe(const Node& node) {
   return {};
 }
 
-namespace {
-
-bool bare_key(std::string_view key) {
-  return !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-';
-  });
-}
-
-std::string quoted(std::string_view text) {
+std::string toml_string(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') {
@@ -114,15 +105,24 @@ std::string quoted(std::string_view text) {
   return out + '"';
 }
 
+namespace {
+
+bool bare_key(std::string_view key) {
+  return !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  });
+}
+
 std::string key_text(std::string_view key) {
-  return bare_key(key) ? std::string(key) : quoted(key);
+  return bare_key(key) ? std::string(key) : toml_string(key);
 }
 
 std::string value_text(const Node& node) {
   switch (node.kind) {
     case Node::Kind::Text:
     case Node::Kind::Other:
-      return quoted(node.text);
+      return toml_string(node.text);
     case Node::Kind::Integer:
       return std::to_string(node.integer);
     case Node::Kind::Float: {

@@ -60,5 +60,7 @@ inline constexpr std::string_view kResolvedHead =
 Node parse_toml(std::string_view text, const std::string& file);
 // A tree to TOML text: members before sections, comments behind values.
 std::string write_toml(const Node& table);
+// A text as a string of TOML, in quotes.
+std::string toml_string(std::string_view text);
 
 }  // namespace papilla::config

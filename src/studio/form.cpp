@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "config/describe.h"
+#include "config/node.h"
 #include "geometry/texture.h"
 #include "report/json.h"
 
@@ -102,16 +103,6 @@ const char* type_name(KeyType type) {
   throw InputError({Problem{"", 0, 0, path, message}});
 }
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < 0x20) continue;
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + '"';
-}
-
 // "262 nm", or a bare number in the unit of the key.
 std::string number_text(const FormKey& key, const std::string& text) {
   const auto q = parse_quantity(text);
@@ -130,7 +121,7 @@ std::string list_text(const FormKey& key, const std::string& text) {
   for (const std::string& item : items) {
     if (item.empty()) continue;
     const std::string value = number_text(key, item);
-    out.push_back(key.unit.empty() ? value : quoted(value));
+    out.push_back(key.unit.empty() ? value : toml_string(value));
   }
   return "[" + join_names(out, ", ") + "]";
 }
@@ -154,7 +145,7 @@ std::string value_text(const FormKey& key, const std::string& text) {
         refuse(key.path, "expected one of " + join_names(key.choices));
       return text;
     case KeyType::Text:
-      return quoted(text);
+      return toml_string(text);
     case KeyType::Path:
       refuse(key.path, "a file is chosen by its import view, not by its name");
   }
@@ -224,8 +215,8 @@ std::vector<Change> changes_between(const Design& from, const Design& to) {
     const auto same = std::find_if(before.begin(), before.end(),
                                    [&](const FormKey& k) { return k.path == key.path; });
     if (same != before.end() && same->value == key.value) continue;
-    out.push_back(
-        {key.path, key.type == KeyType::Path ? quoted(key.value) : value_text(key, key.value)});
+    out.push_back({key.path, key.type == KeyType::Path ? toml_string(key.value)
+                                                       : value_text(key, key.value)});
   }
   return out;
 }

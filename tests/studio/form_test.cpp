@@ -64,7 +64,7 @@ TEST(FormValues, AreOfTheirTypeAndInTheirUnit) {
   EXPECT_EQ(written(choice, "two"), "two");
   EXPECT_EQ(written(choice, "three"), "refused");
   // Texts cannot leave their quotes.
-  EXPECT_EQ(written(key_of(Type::Text, ""), "a\"b\\c\nd e"), "\"a\\\"b\\\\cd e\"");
+  EXPECT_EQ(written(key_of(Type::Text, ""), "a\"b\\c\nd e"), "\"a\\\"b\\\\c\\nd e\"");
   EXPECT_EQ(written(key_of(Type::Path, ""), "scan.gsf"), "refused");
 }
 
