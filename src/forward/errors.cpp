@@ -13,8 +13,7 @@ constexpr int kSmallestGrid = 16;  // of the control run on half the pixels; bel
 // What is missing to the limit over the last halving of the pixel: order 1.3 for the pull, 1.5 for
 // other quantities. Training scenes of docs/theory/accuracy.md
 constexpr double kPullToLimit = 0.7, kOtherToLimit = 0.55;
-// Contact areas: of the octaves left out, so many at least; fewer by as much as half the pixels
-// leave out less than one.
+// Contact areas: of the octaves left out, so many at least.
 constexpr double kFewestOctaves = 0.6;
 // What they are too large by through octaves that are left out is taken off; so much of it, one
 // standard deviation, is not known.
@@ -91,10 +90,8 @@ double octaves_left_out(const Plan& plan) {
 
 // Of a step between two grids, what is the features' own: all where both resolve the skin alike.
 // It is the step that drops waves of the skin, whether or not the finer grid has all of them.
-double own_step(const Plan& fine, const Plan& coarse) {
-  const double dropped = std::log2(coarse.effective_cutoff / fine.effective_cutoff);
-  return 1 - (1 - kOfFeatures) * std::clamp(dropped, 0.0, 1.0);
-}
+// dropped: octaves.
+double own_step(double dropped) { return 1 - (1 - kOfFeatures) * std::clamp(dropped, 0.0, 1.0); }
 
 // Numbers of one origin at each humidity, each given the larger of its own and the root mean square
 // over humidity, as a difference may cross zero between two of them. Humidities at which next to
@@ -145,10 +142,13 @@ ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity, co
     // it.
     if (quantity == GridLaw::Pull) missing = std::max(kPullToLimit, runs.octaves);
     if (quantity == GridLaw::Modulation) missing *= std::max(runs.octaves, 1.0);
-    if (quantity == GridLaw::Area) {
+    // The step over a grid that resolves the cut-off says how much the area depends on that, not
+    // how well it is resolved; that of coarse features counts on any.
+    if (quantity == GridLaw::Area && runs.octaves == 0) {
+      missing = runs.coarse_features;
+    } else if (quantity == GridLaw::Area) {
       const double step = grid_error(out.halving);
-      const double fewest = kFewestOctaves * std::min(1.0, runs.coarse_octaves);
-      const double all = left_out_of(step, std::max(runs.octaves, fewest));
+      const double all = left_out_of(step, std::max(runs.octaves, kFewestOctaves));
       missing = all - (1 - kNotKnown) * left_out_of(step, runs.octaves);
       missing = std::max(missing, runs.coarse_features);
       scatter = std::max(0.0, all - missing);
@@ -221,8 +221,8 @@ class Controls {
       const PatchSet coarse = again(half, grid);
       out.coarse = respond(scene_, half, coarse);
       out.coarse_octaves = octaves_left_out(coarse.plan);
-      out.coarse_features =
-          missing_of_features(patches.plan.feature_pixels) * own_step(patches.plan, coarse.plan);
+      out.coarse_features = missing_of_features(patches.plan.feature_pixels) *
+                            own_step(out.coarse_octaves - out.octaves);
     }
   }
 

@@ -104,6 +104,7 @@ std::string parameter_text(const ResultFiles& f, const char* word) {
 // Below this share of what the best is worth (of the knee: of the front's extent) two designs are
 // alike: nobody would build the other for it.
 constexpr double kAlike = 0.01;
+constexpr double kSure = 0.95;  // p(best) that asks for no measurement
 
 bool overturns(const Decision& d, const Reversal& r) {
   if (r.best == d.best) return false;
@@ -150,6 +151,33 @@ std::string limits_sentence(const ResultFiles& f) {
       has, percent(wanted));
 }
 
+// The design whose measurement beside that of the chosen one settles most: what is better where
+// belief may be true (its share times what is lost there), else the next most probable best.
+std::size_t rival_of(const Decision& d) {
+  std::vector<Reversal> all = d.hypotheses;
+  if (d.parameter) all.insert(all.end(), {d.parameter->low, d.parameter->high});
+  const Reversal* most = nullptr;
+  for (const Reversal& r : all) {
+    if (overturns(d, r) && (!most || r.weight * r.loss > most->weight * most->loss)) most = &r;
+  }
+  if (most) return most->best;
+  std::size_t out = d.best == 0 ? 1 : 0;
+  for (std::size_t i = 0; i < d.designs.size(); ++i) {
+    if (i != d.best && d.designs[i].p_best > d.designs[out].p_best) out = i;
+  }
+  return out;
+}
+
+std::string measure_sentence(const ResultFiles& f) {
+  const Decision& d = decision_of(f);
+  if (d.designs.size() < 2 || d.designs[d.best].p_best > kSure) return {};
+  return fmt::format(
+      " To be surer, measure the friction of {} and of {}{}: `papilla next RESULTS --lab LAB` says "
+      "at which humidity, load and voltage first, and `papilla tell LAB TABLE` what it changes.",
+      name_of(f, d.best), name_of(f, rival_of(d)),
+      f.problem.driven() ? " with the drive off and on" : "");
+}
+
 // Which is the best more often than the chosen one, and loses more where it is not.
 std::string oftener_sentence(const ResultFiles& f) {
   const Decision& d = decision_of(f);
@@ -188,7 +216,7 @@ std::string decision_sentence(const ResultFiles& f) {
         " By the numbers of the fit alone it would be {}, with an expected regret "
         "of {}.",
         name_of(f, d.nominal), regret_text(f, d.nominal));
-  return out + oftener_sentence(f) + limits_sentence(f);
+  return out + oftener_sentence(f) + measure_sentence(f) + limits_sentence(f);
 }
 
 std::string decision_text(const ResultFiles& f) {

@@ -109,7 +109,7 @@ TEST(ErrorLaws, WhatIsTakenOffAreasIsKnownAsWellAsSkinsAgree) {
   ControlRuns runs;
   runs.own = run(m, 1, {1, 1, 1});
   runs.coarse = run(m, 1.1, {1.14, 1.06, 1.1});
-  runs.octaves = 2, runs.coarse_octaves = 3;
+  runs.octaves = 2;
   const ControlledChange change = controlled_change(runs, GridLaw::Area, of(m));
   const double step = grid_error(change.halving);  // 0.1 and its scatter
   const double mean = 0.1, deviations[] = {-0.08, 0.08, 0};

@@ -111,6 +111,14 @@ TEST(Decision, IsTheLeastExpectedRegretAndNamesWhatOverturnsIt) {
                       " is better by "),
             std::string::npos)
       << said;
+  // What to measure: the choice, and what overturns it.
+  const auto name = [&](std::size_t i) {
+    return report::design_name(a.run.result.finalists[i].folder);
+  };
+  EXPECT_NE(said.find("measure the friction of " + name(d.best) + " and of " +
+                      name(d.hypotheses[1].best) + " with the drive off and on"),
+            std::string::npos)
+      << said;
 }
 
 TEST(Decision, AHypothesisOfEnoughWeightOverturnsTheNumbersOfTheFit) {
@@ -143,6 +151,7 @@ TEST(Decision, DoesNotNameAHypothesisThatChangesLessThanAPerCent) {
   const std::string said = report::as_read(report::decision_sentence(a.files()));
   EXPECT_EQ(said.find("emission"), std::string::npos) << said;
   EXPECT_NE(said.find("changes the choice by 1 % or more"), std::string::npos) << said;
+  EXPECT_NE(said.find("measure the friction of "), std::string::npos) << said;
 }
 
 TEST(Decision, NamesTheDesignThatIsTheBestMoreOften) {
@@ -155,6 +164,13 @@ TEST(Decision, NamesTheDesignThatIsTheBestMoreOften) {
                       report::design_name(a.run.result.finalists[d.nominal].folder)),
             std::string::npos)
       << said;
+}
+
+TEST(Decision, AsksForNoMeasurementOfWhatIsSure) {
+  const BelievingRun a(believing(0.04), "decision_known", falling(0.09));
+  ASSERT_GT(a.decision().designs[a.decision().best].p_best, 0.95);
+  const std::string said = report::as_read(report::decision_sentence(a.files()));
+  EXPECT_EQ(said.find("measure"), std::string::npos) << said;
 }
 
 TEST(Decision, TheRiskOfTheStudyDecides) {
