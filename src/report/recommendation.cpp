@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/text.h"
 #include "base/units.h"
@@ -21,8 +20,6 @@ namespace {
 const FinalDesign& best_of(const ResultFiles& f) { return f.result.finalists[f.result.best]; }
 Advice advice_of(const ResultFiles& f) { return search::advice_of(f.problem, f.result); }
 
-constexpr double kBits = 1e-9;  // a smaller error is the last bits of a look that nothing scatters
-
 // Objectives in which a design is better (else worse) by more than the error: "mean(modulation)
 // +0.031 ± 0.012". words: which design less which.
 std::string changes(const ResultFiles& f, const std::string& words, const Score& design,
@@ -36,8 +33,7 @@ std::string changes(const ResultFiles& f, const std::string& words, const Score&
     // A quantity without an error, an appearance, changes by rounding alone.
     if (shown_value(o.expression, change) == shown_value(o.expression, 0)) continue;
     const std::string unit = shown_unit(o.expression).unit;
-    const std::string bar =
-        error > kBits * std::abs(change) ? " ± " + shown_error(o.expression, error) : "";
+    const std::string bar = scatters(change, error) ? " ± " + shown_error(o.expression, error) : "";
     const std::string said = fmt::format("{}{}{}", shown_value(o.expression, change, true), bar,
                                          unit.empty() ? "" : " " + unit);
     out.push_back(o.name + " " + stated(difference_number(f, words, design, other, k), said));

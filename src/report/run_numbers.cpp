@@ -40,13 +40,20 @@ StatedNumber objective_number(const ResultFiles& f, const std::string& of, const
           kOfScores};
 }
 
+bool scatters(double value, double error) {
+  constexpr double kBits = 1e-9;
+  return error > kBits * std::abs(value);
+}
+
 std::string objective_text(const ResultFiles& f, const std::string& of, const Score& score,
                            std::size_t k) {
   const StudyObjective& o = f.problem.objectives()[k];
   const std::string unit = shown_unit(o.expression).unit;
-  std::string out = fmt::format("{} ± {}", shown_value(o.expression, score.values[k]),
-                                shown_error(o.expression, score.errors[k]));
-  if (const auto parameters = parameter_error(score, k))
+  const double value = score.values[k];
+  std::string out = shown_value(o.expression, value);
+  if (scatters(value, score.errors[k])) out += " ± " + shown_error(o.expression, score.errors[k]);
+  const auto parameters = parameter_error(score, k);
+  if (parameters && scatters(value, *parameters))
     out += fmt::format(" ({})", shown_error(o.expression, *parameters));
   return stated(objective_number(f, of, score, k), out + (unit.empty() ? "" : " " + unit));
 }

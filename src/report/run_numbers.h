@@ -12,7 +12,10 @@ namespace papilla::report {
 // An objective of a confirmed design, in the unit that people read.
 StatedNumber objective_number(const ResultFiles& files, const std::string& of, const Score& score,
                               std::size_t objective);
-// The same as a text: "0.612 ± 0.014 (0.051)", in brackets the model part.
+// Whether a number has an error to speak of: that of a look that nothing scatters is its last bits.
+bool scatters(double value, double error);
+// The same as a text: "0.612 ± 0.014 (0.051)", in brackets the model part; of what does not scatter
+// the value alone.
 std::string objective_text(const ResultFiles& files, const std::string& of, const Score& score,
                            std::size_t objective);
 // What a design has more than another.

@@ -143,8 +143,10 @@ std::string grid_text(const ResultFiles& f) {
   std::vector<std::string> values;
   for (std::size_t k = 0; k < f.problem.objectives().size(); ++k) {
     const StudyObjective& o = f.problem.objectives()[k];
+    const std::string unit = shown_unit(o.expression).unit;
     const auto said = [&](const char* of, const Score& score) {
-      return stated(objective_number(f, of, score, k), shown_value(o.expression, score.values[k]));
+      return stated(objective_number(f, of, score, k),
+                    shown_value(o.expression, score.values[k]) + (unit.empty() ? "" : " " + unit));
     };
     values.push_back(fmt::format("{} {} where it had {}", o.name,
                                  said("what is built", build.made.confirmed),

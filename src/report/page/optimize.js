@@ -274,7 +274,12 @@ function select(name) {
 
 // ---- the page ----
 const best = data.designs.best, flat = best.flat;
-$('lead').textContent = run.recommendation;
+// Between backticks stand commands.
+run.recommendation.split('`').forEach((part, i) => {
+  const piece = i % 2 ? document.createElement('code') : document.createTextNode('');
+  piece.textContent = part;
+  $('lead').appendChild(piece);
+});
 const said = (list, texts) => (texts || []).forEach((text) => { const item = document.createElement('li'); item.textContent = text; list.appendChild(item); });
 said($('grounds'), run.grounds);
 said($('remarks'), run.remarks);
