@@ -178,16 +178,28 @@ std::string measure_sentence(const ResultFiles& f) {
       f.problem.driven() ? " with the drive off and on" : "");
 }
 
-// Which is the best more often than the chosen one, and loses more where it is not.
-std::string oftener_sentence(const ResultFiles& f) {
+// The choice by the numbers of the fit, and what is the best more often and loses more where it is
+// not: one design in most cases.
+std::string others_sentence(const ResultFiles& f) {
   const Decision& d = decision_of(f);
   const auto oftener =
       std::max_element(d.designs.begin(), d.designs.end(),
                        [](const Prospect& a, const Prospect& b) { return a.p_best < b.p_best; });
-  const auto i = static_cast<std::size_t>(oftener - d.designs.begin());
-  if (i == d.best || !(oftener->p_best > d.designs[d.best].p_best)) return {};
-  return fmt::format(" More often the best (probability {}) is {}, with an expected regret of {}.",
-                     p_best_text(f, i), name_of(f, i), regret_text(f, i));
+  const auto often = static_cast<std::size_t>(oftener - d.designs.begin());
+  const bool any = often != d.best && oftener->p_best > d.designs[d.best].p_best;
+  const auto more_often = [&] {
+    return fmt::format("the best more often (probability {})", p_best_text(f, often));
+  };
+  std::string out;
+  if (d.nominal != d.best)
+    out += fmt::format(
+        " By the numbers of the fit alone it would be {}{}, with an expected regret of {}.",
+        name_of(f, d.nominal), any && often == d.nominal ? ", " + more_often() : "",
+        regret_text(f, d.nominal));
+  if (any && often != d.nominal)
+    out += fmt::format(" Not chosen, but {}, is {}, with an expected regret of {}.", more_often(),
+                       name_of(f, often), regret_text(f, often));
+  return out;
 }
 
 std::string chosen_how(const ResultFiles& f) {
@@ -211,12 +223,7 @@ std::string decision_sentence(const ResultFiles& f) {
   if (shown != d.best) return out + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f));
   if (d.designs.size() > 1) out += "; " + overturned_text(f);
   out += ".";
-  if (d.nominal != d.best)
-    out += fmt::format(
-        " By the numbers of the fit alone it would be {}, with an expected regret "
-        "of {}.",
-        name_of(f, d.nominal), regret_text(f, d.nominal));
-  return out + oftener_sentence(f) + measure_sentence(f) + limits_sentence(f);
+  return out + others_sentence(f) + measure_sentence(f) + limits_sentence(f);
 }
 
 std::string decision_text(const ResultFiles& f) {
