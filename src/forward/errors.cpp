@@ -83,15 +83,12 @@ double missing_of_features(double pixels) {
          std::max(1.0, kLostFeature / std::max(pixels, 1.0));  // walls that meet leave no floor
 }
 
-// Of the skin's spectrum. Eq. accuracy.2
-double octaves_left_out(const Plan& plan) {
-  return std::max(0.0, std::log2(plan.effective_cutoff / plan.skin_cutoff));
-}
-
 // Of a step between two grids, what is the features' own: all where both resolve the skin alike.
 // It is the step that drops waves of the skin, whether or not the finer grid has all of them.
-// dropped: octaves.
-double own_step(double dropped) { return 1 - (1 - kOfFeatures) * std::clamp(dropped, 0.0, 1.0); }
+double own_step(const Plan& fine, const Plan& coarse) {
+  const double dropped = std::log2(coarse.effective_cutoff / fine.effective_cutoff);
+  return 1 - (1 - kOfFeatures) * std::clamp(dropped, 0.0, 1.0);
+}
 
 // Numbers of one origin at each humidity, each given the larger of its own and the root mean square
 // over humidity, as a difference may cross zero between two of them. Humidities at which next to
@@ -201,7 +198,8 @@ class Controls {
     PatchSet first = patches;
     for (auto& results : first.results) results.resize(static_cast<std::size_t>(skins_));
     out.own = respond(scene_, fidelity_, first);
-    out.octaves = octaves_left_out(patches.plan);
+    out.octaves =
+        std::max(0.0, std::log2(patches.plan.effective_cutoff / patches.plan.skin_cutoff));
     Fidelity resolved = fidelity_;
     if (fidelity_.estimator == Estimator::Load && (patches.plan.water || patches.plan.field)) {
       resolved.estimator = Estimator::Area;
@@ -220,9 +218,8 @@ class Controls {
       half.most_pixels = fidelity_.pixels_per_side() / 2;  // else long patches keep their pixels
       const PatchSet coarse = again(half, grid);
       out.coarse = respond(scene_, half, coarse);
-      out.coarse_octaves = octaves_left_out(coarse.plan);
-      out.coarse_features = missing_of_features(patches.plan.feature_pixels) *
-                            own_step(out.coarse_octaves - out.octaves);
+      out.coarse_features =
+          missing_of_features(patches.plan.feature_pixels) * own_step(patches.plan, coarse.plan);
     }
   }
 

@@ -111,8 +111,7 @@ struct Resampled {
 // law, and on half the pixels. Empty: not run.
 struct ControlRuns {
   Resampled own, areas, coarse;
-  // Of the skin's spectrum, what the grid of `own` leaves out, and what half its pixels do.
-  double octaves = 0, coarse_octaves = 0;
+  double octaves = 0;  // of the skin's spectrum that the grid of `own` leaves out
   // Of the step from half the pixels, what is missing to the limit as the texture's features are
   // few pixels wide: 0 where they are resolved.
   double coarse_features = 0;

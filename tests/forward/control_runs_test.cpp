@@ -67,7 +67,6 @@ TEST(ControlRunLaws, AreTheSameSkinsBySolvedAreasAndOnHalfThePixels) {
   expect_same(runs.coarse, c.of(half));
   // 750 nm on 32 pixels of 12 um, 100 nm of the skin.
   EXPECT_NEAR(runs.octaves, std::log2(7.5), 1e-9);
-  EXPECT_NEAR(runs.coarse_octaves, std::log2(15), 1e-9);
   EXPECT_EQ(runs.coarse_features, 0);
   ASSERT_EQ(c.set.errors.size(), 2u);
   EXPECT_EQ(c.set.errors[0].origin, &ErrorParts::grid);
