@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "numerics/loops.h"
 #include "numerics/reductions.h"
 
 namespace papilla::forward {
@@ -22,8 +23,7 @@ constexpr double kLongestStep = 1.0;
 // The share of the attraction that is applied rises to 1 at the equilibrium. Where it falls again
 // by this over a way that is longer than that, a fold lies behind.
 constexpr double kFalls = 0.02, kPastFold = 0.1;
-// States that are mixed; what they differ by counts where newer ones leave so much of its square.
-constexpr std::size_t kStates = 4;
+// What states differ by counts where newer ones leave so much of its square.
 constexpr double kLeastNew = 1e-6;
 // What a step counts whose places cancel in the mean.
 constexpr double kOfMoves = 0.25;
@@ -33,21 +33,21 @@ constexpr double kMeanWeight = 100;
 double mean(const std::vector<double>& v) { return sum(v) / static_cast<double>(v.size()); }
 
 double mean_size(const std::vector<double>& v) {
-  double sizes = 0;
-  for (const double x : v) sizes += std::abs(x);
-  return sizes / static_cast<double>(v.size());
+  return sum_over(v.size(), [&](auto at) { return larger(at(v), -at(v)); }) /
+         static_cast<double>(v.size());
+}
+
+double mean_distance(const std::vector<double>& a, const std::vector<double>& b) {
+  return sum_over(a.size(), [&](auto at) { return larger(at(a) - at(b), at(b) - at(a)); }) /
+         static_cast<double>(a.size());
 }
 
 double product(const std::vector<double>& a, const std::vector<double>& b) {
   return dot(a, b) / static_cast<double>(a.size()) + kMeanWeight * mean(a) * mean(b);
 }
 
-void subtract(double share, const std::vector<double>& other, std::vector<double>& from) {
-  for (std::size_t i = 0; i < from.size(); ++i) from[i] -= share * other[i];
-}
-
 std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
-  subtract(1, b, a);
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
   return a;
 }
 
@@ -67,37 +67,63 @@ EquilibriumSearch::EquilibriumSearch(double load, State first, double slope, dou
   PAPILLA_CHECK(first.applied.size() == first.attraction.size(), "a traction at each place");
   const double applied = mean(first.applied), attraction = mean(first.attraction);
   applied_ = with_mean(first.attraction, applied + (attraction - applied) / (1 - slope_));
-  states_.push_back(std::move(first));
+  keep(std::move(first));
 }
 
-// Eq. coupling.15
-std::vector<double> EquilibriumSearch::mixed() const {
-  struct Way {
-    std::vector<double> residual, attraction;
-  };
-  const auto of = [](const State& s) {
-    return Way{difference(s.attraction, s.applied), s.attraction};
-  };
-  const Way newest = of(states_.back());
-  Way out = newest;
-  std::vector<Way> known;  // residuals at right angles
-  for (auto state = states_.rbegin() + 1; state != states_.rend(); ++state) {
-    const Way before = of(*state);
-    Way way{difference(newest.residual, before.residual),
-            difference(newest.attraction, before.attraction)};
-    const auto take_away = [&](const Way& other, Way& from) {
-      const double share =
-          product(from.residual, other.residual) / product(other.residual, other.residual);
-      subtract(share, other.residual, from.residual);
-      subtract(share, other.attraction, from.attraction);
-    };
-    const double whole = product(way.residual, way.residual);
-    for (const Way& other : known) take_away(other, way);
-    if (!(product(way.residual, way.residual) > kLeastNew * whole)) continue;
-    take_away(way, out);
-    known.push_back(std::move(way));
+void EquilibriumSearch::keep(State state) {
+  if (states_.size() == kStates) {
+    states_.erase(states_.begin());
+    residuals_.erase(residuals_.begin());
+    for (std::size_t i = 1; i < kStates; ++i)
+      std::copy(products_[i].begin() + 1, products_[i].end(), products_[i - 1].begin());
   }
-  return std::move(out.attraction);
+  residuals_.push_back(difference(state.attraction, state.applied));
+  states_.push_back(std::move(state));
+  const std::size_t newest = states_.size() - 1;
+  for (std::size_t i = 0; i <= newest; ++i)
+    products_[i][newest] = products_[newest][i] = product(residuals_[i], residuals_[newest]);
+}
+
+// How much of each state the mixture has whose residual is the least; their sum is 1. Differences
+// of states are sums over states too, so nothing here is as long as a map. Eq. coupling.15
+EquilibriumSearch::Weights EquilibriumSearch::weights() const {
+  const std::size_t newest = states_.size() - 1;
+  const auto of = [&](const Weights& a, const Weights& b) {
+    double out = 0;
+    for (std::size_t i = 0; i <= newest; ++i) {
+      for (std::size_t j = 0; j <= newest; ++j) out += a[i] * b[j] * products_[i][j];
+    }
+    return out;
+  };
+  Weights out{};
+  out[newest] = 1;
+  std::vector<Weights> known;  // differences whose residuals are at right angles
+  const auto take_away = [&](const Weights& other, Weights& from) {
+    const double share = of(from, other) / of(other, other);
+    for (std::size_t i = 0; i <= newest; ++i) from[i] -= share * other[i];
+  };
+  for (std::size_t before = newest; before-- > 0;) {
+    Weights way{};
+    way[newest] = 1;
+    way[before] = -1;
+    const double whole = of(way, way);
+    for (const Weights& other : known) take_away(other, way);
+    if (!(of(way, way) > kLeastNew * whole)) continue;
+    take_away(way, out);
+    known.push_back(way);
+  }
+  return out;
+}
+
+// What the mixture would attract with.
+std::vector<double> EquilibriumSearch::mixed() const {
+  const Weights share = weights();
+  std::vector<double> out(states_.back().applied.size());
+  for (std::size_t k = 0; k < states_.size(); ++k) {
+    const std::vector<double>& attraction = states_[k].attraction;
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] += share[k] * attraction[i];
+  }
+  return out;
 }
 
 EquilibriumSearch::Next EquilibriumSearch::found(std::vector<double> attraction) {
@@ -106,12 +132,11 @@ EquilibriumSearch::Next EquilibriumSearch::found(std::vector<double> attraction)
   const double a_before = mean(states_.back().applied), f_before = mean(states_.back().attraction);
   const double total = load_ + std::max(f, 0.0), moved = a - a_before, excess = f - a;
   if (std::abs(moved) > kShort * total) slope_ = std::clamp((f - f_before) / moved, 0.0, kSteepest);
-  states_.push_back({std::move(applied_), std::move(attraction)});
-  if (states_.size() > kStates) states_.erase(states_.begin());
+  keep({std::move(applied_), std::move(attraction)});
   applied_ = mixed();
   const double step = mean(applied_) - a;
   // The mean alone may pause while the shape is on its way.
-  const double moves = mean_size(difference(applied_, last().applied));
+  const double moves = mean_distance(applied_, last().applied);
   residual_ = std::max(std::abs(step), kOfMoves * moves) / total;
   if (residual_ <= tolerance_) return Next::Settled;
   if (moved > kPastFold * total && f_before > a_before && excess > 0 && a_before > 0 &&

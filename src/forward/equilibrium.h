@@ -2,6 +2,7 @@
 // numbers alone. Eq. coupling.2
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "base/rooms.h"
@@ -40,10 +41,18 @@ class EquilibriumSearch {
   double slope() const { return slope_; }  // dT/dt of the means of the last two answers
 
  private:
+  // States that are mixed.
+  static constexpr std::size_t kStates = 4;
+  using Weights = std::array<double, kStates>;
+
+  void keep(State state);
+  Weights weights() const;
   std::vector<double> mixed() const;
 
   double load_, tolerance_, slope_, residual_ = 1;
-  std::vector<State> states_;  // the newest last
+  std::vector<State> states_;                   // the newest last
+  std::vector<std::vector<double>> residuals_;  // T - t of each
+  std::array<Weights, kStates> products_{};     // of their residuals
   std::vector<double> applied_;
 };
 

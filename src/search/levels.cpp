@@ -75,13 +75,14 @@ Fidelity narrow_fidelity(const StudyProblem& problem) {
   return f;
 }
 
-// The finger population shares the samples of the level: the mean over fingers is as sure as one
-// finger at that level.
+// The finger population shares the samples of the level, those of the 3-D field too: the mean over
+// fingers is as sure as one finger at that level.
 Fidelity confirm_fidelity(const Study& study, std::size_t tasks) {
   Fidelity f = fidelity_level(study.design.accuracy.level_name());
   f.seed = static_cast<std::uint64_t>(study.search.seed);
   f.first_skin = kFreshSkins;
   f.skins = std::max(10, f.skins / static_cast<int>(tasks));
+  f.field_skins = std::max(1, f.field_skins / static_cast<int>(tasks));
   return f;
 }
 

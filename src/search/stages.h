@@ -37,6 +37,8 @@ struct Run {
   // Where the clock cut a part.
   void cut(RunPart part, std::size_t done, std::size_t of);
   double price(Stage stage, double most_seconds) const;  // task_price, computed once
+  // Of one task, in units that what was timed gives its seconds.
+  double expected_seconds(Stage stage) const;
   // Whether the design was evaluated, not refused before.
   bool add_to_history(const Point& unit, const Judgement& judgement);
 

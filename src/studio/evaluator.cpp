@@ -9,7 +9,9 @@
 #include <exception>
 
 #include "base/watch.h"
+#include "config/describe.h"
 #include "estimate/belief.h"
+#include "estimate/difference.h"
 #include "forward/forward.h"
 #include "metrics/metrics.h"
 
@@ -28,6 +30,23 @@ Fidelity fidelity_of_step(const Design& design, Step step) {
   out.seed = static_cast<std::uint64_t>(design.accuracy.seed);
   if (step == Step::Design && design.accuracy.grid > 0) out.grid = design.accuracy.grid;
   return out;
+}
+
+constexpr double kSlopeStep = 0.05;  // of a number, either way
+
+// What a slope is told of: by what is changed here.
+std::vector<std::string> sloping_numbers(const Design& design) {
+  std::vector<std::string> out = texture_numbers(design);
+  for (std::size_t i = 0; i < design.surface.dielectric.size(); ++i)
+    out.push_back("surface.dielectric." + std::to_string(i) + ".thickness");
+  if (design.drive.driven() && design.drive.control == DriveControl::Voltage)
+    out.emplace_back("drive.amplitude");
+  return out;
+}
+
+std::vector<MetricExpression> sloping_metrics(const Design& design) {
+  if (!design.drive.driven()) return {{Summary::Mean, kFriction}, {Summary::Variation, kFriction}};
+  return {{Summary::Mean, kModulation}, {Summary::Variation, kModulation}};
 }
 
 // The design that the text of a page cannot change: its title says nothing about the answer.
@@ -90,7 +109,7 @@ Evaluator::Known& Evaluator::known(const Design& design) {
     std::rotate(at, at + 1, known_.end());
   } else {
     if (known_.size() >= kMostKnown) known_.erase(known_.begin());
-    known_.push_back({design, {}});
+    known_.push_back({design, {}, {}});
   }
   return known_.back();
 }
@@ -176,6 +195,48 @@ void Evaluator::refine(const Wish& wish) {
       refine_to(wish, design, step, "pinned design, " + std::string(name_of(step)));
   }
   listener_.refining(wish.revision, "", 1);
+  if (slopes_wanted_) find_slopes(wish);
+}
+
+void Evaluator::want_slopes(bool wanted) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (slopes_wanted_ == wanted) return;
+    slopes_wanted_ = wanted;
+    if (wanted) refined_ = 0;  // of what is at hand
+  }
+  changed_.notify_all();
+}
+
+void Evaluator::find_slopes(const Wish& wish) {
+  std::unique_lock lock(mutex_);
+  std::vector<Slope> out = known(wish.design).slopes;
+  lock.unlock();
+  listener_.slopes(wish.revision, out);
+  const Fidelity fidelity = fidelity_of_step(wish.design, Step::Draft);
+  const auto moved = [&](const std::string& path, double value) {
+    Design design = wish.design;
+    set_number(design, path, value);
+    return evaluate(scene_of(design), design.texture, fidelity);
+  };
+  for (const std::string& path : sloping_numbers(wish.design)) {
+    if (!slopes_wanted_) return;
+    if (std::any_of(out.begin(), out.end(), [&](const Slope& s) { return s.path == path; }))
+      continue;
+    const DesignStep step = design_step(wish.design, path, kSlopeStep);
+    if (!step.moves()) continue;
+    const Response down = moved(path, step.down), up = moved(path, step.up);
+    Slope slope{path, step.unit, step.value, step.down, step.up, {}};
+    for (const MetricExpression& e : sloping_metrics(wish.design)) {
+      const ResponseDifference change = difference_of(e, down, up);
+      slope.changes.push_back({metric_text(e), change.value, change.error});
+    }
+    out.push_back(std::move(slope));
+    lock.lock();
+    known(wish.design).slopes = out;
+    lock.unlock();
+    listener_.slopes(wish.revision, out);
+  }
 }
 
 // Whether anything had to be done.

@@ -40,6 +40,17 @@ struct Comparison {
   std::optional<double> error;
 };
 
+// What a number of the design does to the answer: drafts a step below and above it, common skins.
+struct Slope {
+  struct Change {
+    std::string metric;  // "mean(modulation)"
+    double value = 0, error = 0;
+  };
+  std::string path, unit;              // the unit for people
+  double value = 0, down = 0, up = 0;  // SI
+  std::vector<Change> changes;         // from `down` to `up`
+};
+
 struct Answer {
   std::uint64_t revision = 0;
   Step step = Step::First;
@@ -54,6 +65,8 @@ struct Listener {
   // shape: where the texture is another one than before.
   std::function<void(std::uint64_t revision, const Design&)> shape, look;
   std::function<void(std::uint64_t revision, const std::string& what, double share)> refining;
+  // Those that are known of a design so far, where slopes are wanted.
+  std::function<void(std::uint64_t revision, const std::vector<Slope>&)> slopes;
   std::function<void(std::uint64_t revision, const std::string& why)> failed;
 };
 
@@ -68,11 +81,14 @@ class Evaluator {
   Evaluator& operator=(const Evaluator&) = delete;
 
   void wish(Wish wish);
+  // Slopes are found too, after all else: two drafts a number.
+  void want_slopes(bool wanted);
 
  private:
   struct Known {  // of one design
     Design design;
     std::map<Step, Response> by_step;  // First: as it was computed, carried by no anchor
+    std::vector<Slope> slopes;
   };
 
   void answer_first();
@@ -81,6 +97,7 @@ class Evaluator {
   void refine_while_idle();
   void refine(const Wish& wish);
   bool refine_to(const Wish& wish, const Design& design, Step step, const std::string& what);
+  void find_slopes(const Wish& wish);
   void tell(const Wish& wish, Step step, Response shown);
   Known& known(const Design& design);  // with the lock held
   std::vector<Comparison> comparisons(const Wish& wish, Step step);
@@ -97,7 +114,7 @@ class Evaluator {
   std::map<std::uint64_t, std::int64_t> asked_at_;  // by revision [ns]
   std::uint64_t wishes_ = 0, refined_ = 0;
   bool closing_ = false;
-  std::atomic<bool> stop_refining_{false};
+  std::atomic<bool> stop_refining_{false}, slopes_wanted_{false};
   KeptPatches kept_;
   std::thread first_, finer_;
 };

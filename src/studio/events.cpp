@@ -16,6 +16,8 @@ const char* name_of(Topic topic) {
       return "look";
     case Topic::Refinement:
       return "refinement";
+    case Topic::Slopes:
+      return "slopes";
     case Topic::Search:
       return "search";
     case Topic::Lab:

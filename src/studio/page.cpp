@@ -8,7 +8,8 @@ namespace papilla::studio {
 
 // The files of src/studio/page, embedded at build time.
 extern const std::string_view kStudioHtml, kStudioStyle, kStudioModule, kFormModule, kSceneModule,
-    kAnswerModule, kSearchModule, kFilesModule, kLabModule, kServerModule, kTakeModule;
+    kAnswerModule, kSearchModule, kFilesModule, kLabModule, kServerModule, kTakeModule, kSvgModule,
+    kWordsModule;
 
 namespace {
 
@@ -34,6 +35,8 @@ const std::array kFiles{
     Served{"/page/lab.js", kScript, &kLabModule},
     Served{"/page/server.js", kScript, &kServerModule},
     Served{"/page/take.js", kScript, &kTakeModule},
+    Served{"/page/svg.js", kScript, &kSvgModule},
+    Served{"/page/words.js", kScript, &kWordsModule},
     Served{"/plots/look.js", kScript, &kLookModule},
     Served{"/plots/numbers.js", kScript, &kNumbersModule},
     Served{"/plots/tables.js", kScript, &kTablesModule},

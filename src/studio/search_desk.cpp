@@ -103,7 +103,7 @@ SearchDesk::Present::Present(const std::string& file)
 
 SearchDesk::SearchDesk(fs::path folder, std::string program, std::function<void()> told)
     : folder_(folder), program_(std::move(program)), told_(std::move(told)) {
-  find_last();
+  if (const std::vector<int> all = numbers(); !all.empty()) take_up(all.back());
   thread_ = std::thread([this] { watch(); });
 }
 
@@ -119,15 +119,22 @@ SearchDesk::~SearchDesk() {
 std::string SearchDesk::place() const { return fmt::format("{}/{:03}", kSearches, number_); }
 std::string SearchDesk::in_place(const char* name) const { return place() + "/" + name; }
 
-// The newest of the folder, as it was left.
-void SearchDesk::find_last() {
-  if (!folder_.has_folder(kSearches)) return;
+// Of all searches of the folder, in their order.
+std::vector<int> SearchDesk::numbers() const {
+  std::vector<int> out;
+  if (!folder_.has_folder(kSearches)) return out;
   const Folder searches = folder_.below(kSearches);
   for (const std::string& name : searches.folders()) {
-    if (const int number = number_of(name); number > number_ && searches.has(name + "/study.toml"))
-      number_ = number;
+    if (const int number = number_of(name); number > 0 && searches.has(name + "/study.toml"))
+      out.push_back(number);
   }
-  if (number_ == 0) return;
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+// As it was left.
+void SearchDesk::take_up(int number) {
+  number_ = number;
   try {
     begin_reading();
     // One that was interrupted has files too, but no end in its journal.
@@ -137,6 +144,15 @@ void SearchDesk::find_last() {
     state_ = SearchState::Failed;
     trouble_ = error.what();
   }
+}
+
+void SearchDesk::show(int number) {
+  const std::lock_guard lock(mutex_);
+  if (state_ == SearchState::Running) throw InputError("a search is running: pause it first");
+  const std::vector<int> known = numbers();
+  if (std::find(known.begin(), known.end(), number) == known.end())
+    throw InputError(fmt::format("there is no search {:03}", number));
+  take_up(number);
 }
 
 void SearchDesk::begin_reading() {
@@ -177,7 +193,8 @@ void SearchDesk::start(const Draft& origin, const Study& study, const SearchWish
     if (!steer) throw InputError("a search is running: pause it, or steer it");
     stop_child(lock);
   }
-  const int next = number_ + 1;
+  const std::vector<int> before = numbers();
+  const int next = before.empty() ? 1 : before.back() + 1;
   const std::string name = fmt::format("{}/{:03}", kSearches, next);
   const Folder folder = folder_.made_below(name);
   try {
@@ -314,7 +331,7 @@ Json SearchDesk::front_json() const {
 
 Json SearchDesk::json() const {
   const std::lock_guard lock(mutex_);
-  Json out{{"state", name_of(state_)}, {"number", number_}};
+  Json out{{"state", name_of(state_)}, {"number", number_}, {"numbers", numbers()}};
   if (!present_) return out;
   const StudyProblem& problem = present_->problem;
   const std::vector<Variable>& varied = present_->study.variables;

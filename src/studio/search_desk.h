@@ -65,6 +65,9 @@ class SearchDesk {
   void resume();
   // Looks for no more: the best of what was found is confirmed and reported.
   void stop();
+  // Makes an earlier search the present one. Throws InputError where one runs, or for a number of
+  // none.
+  void show(int number);
   // The design of an evaluation of the search, or of its front, as a draft.
   Draft design_of(std::size_t evaluation) const;
   Draft design_of(const std::string& front) const;
@@ -91,7 +94,8 @@ class SearchDesk {
   bool read_journal();
   void start_child();
   void wait_for_child();
-  void find_last();
+  std::vector<int> numbers() const;
+  void take_up(int number);
   std::string place() const;  // of the present search, below the folder
   std::string in_place(const char* name) const;
   Draft draft_of(const Design& design) const;

@@ -8,9 +8,11 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "base/units.h"
 #include "design/scans.h"
 #include "forward/appearance.h"
 #include "geometry/texture.h"
+#include "metrics/metric.h"
 #include "report/json.h"
 #include "report/page.h"
 #include "report/page_data.h"
@@ -63,6 +65,30 @@ Json comparisons_json(const std::vector<Comparison>& comparisons) {
                    {"metric", c.metric},
                    {"difference", json_number(c.difference)},
                    {"error", json_number(c.error)}});
+  }
+  return out;
+}
+
+// What the metrics mean.
+Json words_json() {
+  Json out = Json::object();
+  for (const MetricInfo& m : metric_list()) out[m.name] = m.doc;
+  return out;
+}
+
+Json slopes_json(const std::vector<Slope>& slopes) {
+  Json out = Json::array();
+  for (const Slope& s : slopes) {
+    Json changes = Json::array();
+    for (const Slope::Change& c : s.changes)
+      changes.push_back(
+          {{"metric", c.metric}, {"value", json_number(c.value)}, {"error", json_number(c.error)}});
+    const double to_unit = s.unit.empty() ? 1 : find_unit(s.unit)->to_si;
+    out.push_back({{"path", s.path},
+                   {"unit", s.unit},
+                   {"down", s.down / to_unit},
+                   {"up", s.up / to_unit},
+                   {"changes", changes}});
   }
   return out;
 }
@@ -179,6 +205,10 @@ Listener Studio::listener() {
     events_.tell(Topic::Refinement,
                  Json{{"revision", revision}, {"what", what}, {"share", share}}.dump());
   };
+  out.slopes = [this](std::uint64_t revision, const std::vector<Slope>& slopes) {
+    events_.tell(Topic::Slopes,
+                 Json{{"revision", revision}, {"slopes", slopes_json(slopes)}}.dump());
+  };
   out.failed = [this](std::uint64_t revision, const std::string& why) {
     events_.tell(Topic::Notice, Json{{"revision", revision}, {"error", why}}.dump());
   };
@@ -223,10 +253,10 @@ std::string Studio::session_json() const {
 }
 
 std::string Studio::state() const {
-  static const std::string kinds = kinds_json().dump();
+  static const std::string kinds = kinds_json().dump(), words = words_json().dump();
   return fmt::format(
-      R"({{"version":"{}","kinds":{},"files":{},"session":{},"wish":{},"search":{},"lab":{}}})",
-      PAPILLA_VERSION, kinds, files_.list().dump(), session_json(),
+      R"({{"version":"{}","kinds":{},"words":{},"files":{},"session":{},"wish":{},"search":{},"lab":{}}})",
+      PAPILLA_VERSION, kinds, words, files_.list().dump(), session_json(),
       proposed_wish(session_.view().study, session_.wish()).dump(), desk_->json().dump(),
       lab_json());
 }
@@ -280,6 +310,10 @@ void Studio::add_design_routes() {
     return changed(session_.view().revision);
   };
   routes_["POST /take"] = [this](const Asked& a) { return changed(session_.take(a.whole("pin"))); };
+  routes_["POST /slopes"] = [this](const Asked& a) {
+    evaluator_->want_slopes(a.flag("wanted"));
+    return Json::object().dump();
+  };
   routes_["POST /maps"] = [this](const Asked& a) {
     const SessionView view = session_.view();
     const auto& humidities = view.study.design.environment.relative_humidity;
@@ -361,6 +395,11 @@ void Studio::add_search_routes() {
   };
   routes_["POST /search/stop"] = [this, told](const Asked&) {
     desk_->stop();
+    return told();
+  };
+  routes_["POST /search/show"] = [this, told](const Asked& a) {
+    desk_->show(a.whole("number"));
+    events_.tell(Topic::Lab, lab_json());
     return told();
   };
   routes_["POST /search/pick"] = [this](const Asked& a) {

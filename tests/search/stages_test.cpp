@@ -442,7 +442,8 @@ TEST(Stages, FailuresAreCounted) {
   EXPECT_EQ(a.run.result.refused, 0);
 }
 
-// What is left of a run is priced by what was timed: the same stage by itself, another by plans.
+// What is left of a run is priced by what was timed: the same stage by itself, another by plans and
+// what such stages take of their plans, half to twice as much.
 TEST(Stages, TimesAreThoseOfTheTasksThatWereDone) {
   AnsweredRun a(evolved(), fresh_folder("stages_times"), lines);
   search::Run& run = a.run;
@@ -455,7 +456,9 @@ TEST(Stages, TimesAreThoseOfTheTasksThatWereDone) {
   EXPECT_NEAR(run.seconds_of(6, Stage::Search), 6 * each, 1e-9 * each);
   for (const Stage stage : {Stage::Narrow, Stage::Confirm, Stage::Stability, Stage::Sensitivity}) {
     const double ratio = task_price(run.problem, stage) / task_price(run.problem, Stage::Search);
-    EXPECT_NEAR(run.seconds_of_designs(2, stage), 2 * each * ratio, 1e-9 * each * ratio);
+    const double over = run.seconds_of_designs(2, stage) / (2 * each * ratio);
+    EXPECT_GT(over, 0.5);
+    EXPECT_LT(over, 2);
   }
   const PartSeconds all = run.wanted();
   const auto part = [&](RunPart p) { return all[static_cast<std::size_t>(p)]; };
@@ -465,7 +468,7 @@ TEST(Stages, TimesAreThoseOfTheTasksThatWereDone) {
   EXPECT_DOUBLE_EQ(part(RunPart::Stability),
                    run.seconds_of(8 * stability_variants(run.problem).size(), Stage::Stability));
   EXPECT_DOUBLE_EQ(part(RunPart::Flat), run.seconds_of(2, Stage::Confirm));
-  EXPECT_DOUBLE_EQ(part(RunPart::Rounding), run.seconds_of(kJudgedOnGrid, Stage::Confirm));
+  EXPECT_DOUBLE_EQ(part(RunPart::Rounding), run.seconds_of(kJudgedOnGrid, Stage::Rounding));
   EXPECT_DOUBLE_EQ(part(RunPart::Sensitivity), run.seconds_of(5, Stage::Sensitivity));
   EXPECT_EQ(part(RunPart::Parameters), 0);
   EXPECT_DOUBLE_EQ(part(RunPart::Files), 1 + run.seconds_of(1, Stage::Confirm) / 8);

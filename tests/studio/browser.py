@@ -2,7 +2,7 @@
 
 Parts: smoke (page, sliders, undo, pin, widths, dark, console), pages (two pages one state, reconnect, foreign
 origin), hour (open, change, pin, search, steer, plan and tell measurements, pick, scan, export, verify, save, reopen), keys (the same hour by keys alone),
-thousand (events of a slider without a pause).
+thousand (events of a slider without a pause), latency (300 events of each of five keys on five kinds of design, and memory after 3,000: a table).
 """
 import csv
 import json
@@ -15,6 +15,7 @@ import tempfile
 import time
 import urllib.error
 import urllib.request
+import xml.etree.ElementTree as xml
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 from chromium import FAINT, Browser, check  # noqa: E402
@@ -308,6 +309,50 @@ def measured(browser, results):
     browser.picture(PICTURES, "hour_4_lab.png")
 
 
+def taken(browser):
+    """What is on the page as files: each chart as SVG, the page itself."""
+    browser.run("""window.given = {};
+        const make = URL.createObjectURL, click = HTMLAnchorElement.prototype.click;
+        let last;
+        URL.createObjectURL = (blob) => { last = blob.text(); return make.call(URL, blob); };
+        HTMLAnchorElement.prototype.click = function () {
+          if (!this.download) return click.call(this);
+          last.then((text) => { window.given[this.download] = text; });
+        };
+        document.querySelectorAll('.take button').forEach((b) => { if (b.textContent === 'SVG' && b.offsetParent) b.click(); });
+        document.getElementById('keep').click();""")
+    until(browser, "window.given['modulation.svg'] && window.given['section.svg'] && window.given['designs.svg'] && window.given['papilla.html']", 20, "files of the page")
+    given = browser.run("return window.given")
+    for name, words in [("modulation.svg", ["relative humidity [%]", "modulation ΔF/F_off", "this design"]), ("section.svg", ["height [nm]", "along the section [µm]"]), ("designs.svg", ["front, confirmed", "mean(modulation)"])]:
+        root = xml.fromstring(given[name])
+        texts = [t.text for t in root.iter("{http://www.w3.org/2000/svg}text")]
+        check(all(w in texts for w in words), f"{name} says {texts}")
+        lines = [p for p in root.iter("{http://www.w3.org/2000/svg}path") if p.get("stroke")]
+        curves = [p.get("d").count("L") for p in lines if p.get("stroke-width") in ("1.5", "2", "2.5") and not p.get("d").endswith("Z")]
+        check(curves and max(curves) >= 1, f"{name} has no curve")
+        check(len(lines) > 5 and all("NaN" not in p.get("d") for p in lines), f"{name} has {len(lines)} lines")
+    check(browser.run("return Object.values(papilla.charts).every(c => c.ctx instanceof CanvasRenderingContext2D)"), "a chart draws into its SVG")
+    if PICTURES:
+        for name, text in given.items():
+            with open(os.path.join(PICTURES, name), "w") as file:
+                file.write(text)
+    page = given["papilla.html"]
+    check("<script" not in page and "<button" not in page and page.count("data:image/png") >= 4 and "±" in page, "the page as a file is not what it shows")
+
+
+def explained(browser):
+    """A word and its meaning; what each number does."""
+    browser.run("document.querySelector('#numbers .what').click()")
+    check("F_off" in browser.run("const n = document.getElementById('meaning'); return n.hidden ? '' : n.textContent"), "modulation is not explained")
+    press(browser, "\ue00c")
+    check(browser.run("return document.getElementById('meaning').hidden"), "Escape leaves the meaning open")
+    check(len(browser.run("return [...document.querySelectorAll('#look .what')].map(b => b.getAttribute('aria-label'))")) >= 4, "looks are not explained")
+    browser.run("document.getElementById('slopes').click()")
+    until(browser, "[...document.querySelectorAll('.key .slope')].filter(p => !p.hidden && /modulation [+−].* ± /.test(p.textContent)).length >= 2", 120, "what numbers do")
+    browser.run("document.getElementById('slopes').click()")
+    check(browser.run("return ![...document.querySelectorAll('.key .slope')].some(p => !p.hidden)"), "slopes stay")
+
+
 def hour(browser, folder):
     shutil.copy(os.path.join(TREE, "designs", "measured_surface", "scan.gsf"), folder)
     studio = Studio(folder, two_humidities(folder))
@@ -323,6 +368,7 @@ def hour(browser, folder):
         until(browser, "papilla.session().keys.find(k => k.path === 'texture.diameter').changed && +document.documentElement.dataset.shape === papilla.session().revision", 30, "the shape of the change")
         until(browser, "document.documentElement.dataset.idle === 'yes' && document.documentElement.dataset.step !== 'first'", 120, "the comparison")
         browser.picture(PICTURES, "hour_2_pinned.png")
+        explained(browser)
         through_history(browser)
         # Search, steered once.
         browser.run("document.getElementById('evaluations').value = 30; document.getElementById('start').click()")
@@ -342,6 +388,10 @@ def hour(browser, folder):
         until(browser, "papilla.charts.pareto.data.datasets[0].label === 'front, confirmed'", 10, "a confirmed front")
         check(browser.run("return document.getElementById('report').textContent") == "Report", "a finished search has no report")
         browser.picture(PICTURES, "hour_4_front.png")
+        taken(browser)
+        for number in ["1", "2"]:
+            browser.run(f"const s = document.getElementById('searches'); s.value = '{number}'; s.dispatchEvent(new Event('change'))")
+            until(browser, f"document.getElementById('stage').textContent.includes('searches/00{number}')", 20, "an earlier search")
         measured(browser, os.path.join(folder, "searches", "002"))
         browser.run("document.querySelector('#frontlist button').click()")
         until(browser, "document.documentElement.dataset.idle === 'yes'", 180, "the picked design")
@@ -503,11 +553,53 @@ def thousand(browser, folder):
         studio.close()
 
 
+def memory_of(studio):
+    with open(f"/proc/{studio.process.pid}/status") as file:
+        return sum(int(line.split()[1]) for line in file if line.startswith("RssAnon:")) / 1024
+
+
+KEYS = ["drive.amplitude", "texture.depth", "surface.contact_angle", "finger.load", "texture.edge_radius"]
+DESIGNS = ["m3_samples/flat.toml", "m3_samples/a3h600.toml", "electroadhesive_glass/slopes.toml", "electroadhesive_glass/texture.toml", "two_level_glass/texture.toml"]
+
+
+def latency(browser, folder):
+    print("| design | key | events | median [ms] | p95 [ms] |\n|---|---|---|---|---|")
+    for design in DESIGNS:
+        studio = Studio(tempfile.mkdtemp(dir=folder), os.path.join(TREE, "designs", design))
+        try:
+            go(browser, studio)
+            until(browser, "document.documentElement.dataset.step !== 'first'", 120, "a refined answer")
+            for path in KEYS:
+                name = f"k-{path.replace('.', '-')}"
+                if not browser.run(f"const f = document.getElementById('{name}'); return Boolean(f && f.closest('.key').querySelector('input[type=range]'))"):
+                    continue
+                browser.run(f"""
+                    const row = document.getElementById('{name}').closest('.key').querySelector('input[type=range]'), start = +row.value;
+                    papilla.latency.done.length = 0;
+                    let n = 0;
+                    window.moved = 0;
+                    const move = () => {{
+                      row.value = Math.round(Math.min(1, Math.max(0, start / row.max + 0.08 * Math.sin(n / 15))) * row.max);
+                      row.dispatchEvent(new Event('input', {{ bubbles: true }}));
+                      window.moved = ++n;
+                      if (n < 300) setTimeout(move, 50);
+                      else row.dispatchEvent(new Event('change', {{ bubbles: true }}));
+                    }};
+                    move();""")
+                until(browser, "window.moved === 300 && papilla.latency.done.length >= 300", 120, f"300 events of {path}")
+                took = sorted(browser.run("return papilla.latency.done"))
+                print(f"| {design} | {path} | {len(took)} | {took[len(took) // 2]:.0f} | {took[int(0.95 * len(took))]:.0f} |")
+                sys.stdout.flush()
+            print(f"memory of the studio after {design}: {memory_of(studio):.0f} MB")
+        finally:
+            studio.close()
+
+
 def main():
     folder, profile = tempfile.mkdtemp(), tempfile.mkdtemp()
     browser = Browser(profile)
     try:
-        {"smoke": smoke, "pages": pages, "hour": hour, "keys": keys, "thousand": thousand}[sys.argv[2]](browser, folder)
+        {"smoke": smoke, "pages": pages, "hour": hour, "keys": keys, "thousand": thousand, "latency": latency}[sys.argv[2]](browser, folder)
     finally:
         browser.close()
         shutil.rmtree(profile, ignore_errors=True)

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -33,6 +34,9 @@ class Told {
     out.refining = [this](std::uint64_t, const std::string& what, double share) {
       add([&] { refined.push_back(what + (share == 1 ? "done" : "")); });
     };
+    out.slopes = [this](std::uint64_t, const std::vector<Slope>& known) {
+      add([&] { slopes = known; });
+    };
     out.failed = [this](std::uint64_t, const std::string& why) {
       add([&] { failures.push_back(why); });
     };
@@ -47,6 +51,7 @@ class Told {
   std::vector<Answer> answers;
   std::vector<std::uint64_t> shapes, looks;
   std::vector<std::string> refined, failures;
+  std::vector<Slope> slopes;
 
  private:
   void add(const std::function<void()>& change) {
@@ -65,6 +70,50 @@ Design quick_design() {
   for (double& volume : out.finger.water.volume) volume = 0;  // dry: quicker
   out.accuracy.seed = 3;
   return out;
+}
+
+// Two drafts a number, where they are asked for.
+TEST(Evaluator, TellsWhatEachNumberDoes) {
+  Told told;
+  const Design design = quick_design();
+  const auto slope_of = [&](const std::string& path) {
+    return std::find_if(told.slopes.begin(), told.slopes.end(),
+                        [&](const Slope& s) { return s.path == path; });
+  };
+  Evaluator evaluator(told.listener());
+  evaluator.wish({1, design, {}, 0});
+  told.wait([&] { return !told.refined.empty() && told.refined.back() == "done"; });
+  EXPECT_TRUE(told.slopes.empty());
+  evaluator.want_slopes(true);
+  told.wait([&] { return slope_of("drive.amplitude") != told.slopes.end(); });
+  ASSERT_TRUE(told.failures.empty());
+  for (const char* path : {"texture.period", "texture.diameter", "texture.depth",
+                           "surface.contact_angle", "surface.dielectric.0.thickness"})
+    EXPECT_NE(slope_of(path), told.slopes.end()) << path;
+  const Slope& depth = *slope_of("texture.depth");
+  EXPECT_NEAR(depth.down, 0.95 * 600e-9, 1e-12);
+  EXPECT_NEAR(depth.up, 1.05 * 600e-9, 1e-12);
+  Fidelity draft = fidelity_level("draft");
+  draft.seed = 3;
+  const auto at = [&](double value) {
+    Design moved = design;
+    set_number(moved, "texture.depth", value);
+    return evaluate(scene_of(moved), moved.texture, draft);
+  };
+  const Response down = at(depth.down), up = at(depth.up);
+  ASSERT_EQ(depth.changes.size(), 2u);
+  EXPECT_EQ(depth.changes[0].metric, "mean(modulation)");
+  EXPECT_NEAR(depth.changes[0].value,
+              summarise(Summary::Mean, kModulation, up)->value -
+                  summarise(Summary::Mean, kModulation, down)->value,
+              1e-12);
+  EXPECT_GT(depth.changes[0].error, 0);
+  EXPECT_EQ(depth.changes[1].metric, "variation(modulation)");
+  // What is known is told again at once.
+  told.slopes.clear();
+  evaluator.want_slopes(false);
+  evaluator.want_slopes(true);
+  told.wait([&] { return slope_of("drive.amplitude") != told.slopes.end(); });
 }
 
 // First at once, then draft and design; pinned designs after the one at hand at each step.

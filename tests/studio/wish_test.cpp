@@ -344,7 +344,8 @@ TEST_F(LeftSearch, ShowsWhatWasFound) {
       {"values":["800 nm"],"objectives":[],"ok":false,"feasible":false},
       {"values":["240 nm"],"objectives":[0.4],"ok":true,"feasible":true}])"));
   left.erase("points");
-  EXPECT_EQ(left, Json::parse(R"json({"state":"paused","number":3,"folder":"searches/003",
+  EXPECT_EQ(left,
+            Json::parse(R"json({"state":"paused","number":3,"numbers":[3],"folder":"searches/003",
       "stage":"search","done":4,"total":12,"trouble":"","progress":null,
       "variables":[{"path":"texture.depth","unit":"nm"}],"fingers":["reference"],
       "objectives":[{"name":"mean(modulation)","maximise":true}],"front":[3],"confirmed":[]})json"));
@@ -374,6 +375,20 @@ TEST_F(LeftSearch, SaysHowFarItCame) {
   write_bytes(place_.path() / "searches/007/study.toml", "nothing");
   EXPECT_EQ(json()["number"], 7);
   EXPECT_EQ(json()["state"], "failed");
+}
+
+TEST_F(LeftSearch, IsShownBesideEarlierOnes) {
+  write_bytes(folder_ / "journal", journal_);
+  std::filesystem::copy(folder_, place_.path() / "searches/005");
+  SearchDesk desk(place_.path(), "none", [] {});
+  EXPECT_EQ(desk.json()["number"], 5);
+  EXPECT_EQ(desk.json()["numbers"], Json({3, 5}));
+  desk.show(3);
+  EXPECT_EQ(desk.json()["folder"], "searches/003");
+  EXPECT_EQ(desk.json()["done"], 4);
+  EXPECT_EQ(desk.json()["state"], "paused");
+  EXPECT_EQ(refusal_of([&] { desk.show(4); }), "there is no search 004");
+  EXPECT_EQ(desk.json()["number"], 3);
 }
 
 // As far as a run that is resumed would go.

@@ -131,6 +131,8 @@ function build(k) {
   row.field.id = id;
   row.about = element('p', 'about');
   row.about.id = id + '-about';
+  row.slope = element('p', 'slope');
+  row.slope.hidden = true;
   row.said = element('p', 'said');
   row.said.id = id + '-said';
   row.said.hidden = true;
@@ -143,7 +145,7 @@ function build(k) {
     row.range = slider(k, row);
     box.append(row.range);
   }
-  box.append(row.said, row.about);
+  box.append(row.slope, row.said, row.about);
   rows[k.path] = row;
   return box;
 }
@@ -168,6 +170,29 @@ function update(k) {
     row.range.value = Math.round(row.range.max * position(k, k.shown));
     row.range.setAttribute('aria-valuetext', people(k.value));
   }
+}
+
+// What a number does to the answer, below it; of another design the words are faint.
+const effects = { 'mean(modulation)': 'modulation', 'variation(modulation)': 'variation', 'mean(friction)': 'friction', 'variation(friction)': 'variation' };
+const signed = (v, scale) => `${v < 0 ? '−' : '+'}${round(Math.abs(scale * v), 2)}`;
+export function showSlopes({ slopes }) {
+  const of = new Map(slopes.map((s) => [s.path, s]));
+  Object.values(rows).forEach((row) => {
+    const s = $('slopes').checked && of.get(row.key.path);
+    row.slope.hidden = !s;
+    if (!s) return;
+    const unit = people(s.unit), told = s.changes.map((c) => {
+      const scale = c.metric === 'mean(friction)' ? 1e3 : 1, after = scale === 1e3 ? ' mN' : '';
+      return c.value === null ? '' : `${effects[c.metric]} ${signed(c.value, scale)} ± ${round(scale * (c.error || 0), 2)}${after}`;
+    }).filter(Boolean);
+    row.slope.textContent = `${round(s.down, 3)} to ${round(s.up, 3)}${unit ? ' ' + unit : ''}: ${told.join(', ')}`;
+  });
+}
+export function startSlopes() {
+  $('slopes').addEventListener('change', () => {
+    if (!$('slopes').checked) showSlopes({ slopes: [] });
+    ask('slopes', { wanted: $('slopes').checked });
+  });
 }
 
 // Rows whose key or meaning has the word.

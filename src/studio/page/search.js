@@ -129,6 +129,7 @@ export function startSearch() {
   $('pause').addEventListener('click', () => run('search/pause'));
   $('resume').addEventListener('click', () => run('search/resume'));
   $('stop').addEventListener('click', () => run('search/stop'));
+  $('searches').addEventListener('change', () => run('search/show', { number: +$('searches').value }));
 }
 async function run(path, body) {
   try {
@@ -153,6 +154,14 @@ export function showSearch(search) {
   $('pause').disabled = !running;
   $('resume').disabled = search.state !== 'paused';
   $('steer').disabled = $('stop').disabled = !running && search.state !== 'paused';
+  const numbers = search.numbers || [], list = numbers.join();
+  $('searchesbox').hidden = numbers.length < 2;
+  $('searches').disabled = running;
+  if ($('searches').dataset.list !== list) {
+    $('searches').dataset.list = list;
+    $('searches').replaceChildren(...numbers.map((n) => new Option(String(n).padStart(3, '0'), n)));
+  }
+  $('searches').value = search.number;
   $('report').hidden = !search.folder;
   if (search.folder) { $('report').href = `report/${search.folder}`; $('report').textContent = search.state === 'finished' ? 'Report' : 'Report so far'; }
   $('progress').hidden = $('frontbox').hidden = !search.folder;

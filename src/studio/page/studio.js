@@ -1,14 +1,15 @@
 // The studio: what the server tells goes to the parts of the page, what the hand does goes back.
 import { $ } from '../plots/look.js';
 import { charts } from '../plots/charts.js';
-import { drawn, latency, showForm, showKinds, startFilter } from './form.js';
+import { drawn, latency, showForm, showKinds, showSlopes, startFilter, startSlopes } from './form.js';
 import { showAnswer, showSessionPins } from './answer.js';
 import { exportDialog, historyDialog, openDialog, saveDialog, saving, startFiles, state } from './files.js';
 import { showDimensions, showLook, showShape, startScene } from './scene.js';
 import { showLab, startLab } from './lab.js';
 import { showSearch, showWish, startSearch } from './search.js';
 import { ask, listen, notice, post } from './server.js';
-import { takeable } from './take.js';
+import { keepPage, takeable } from './take.js';
+import { startWords } from './words.js';
 
 let session = null, file = '', kind = '';
 
@@ -43,6 +44,7 @@ function toolbar() {
   $('open').addEventListener('click', openDialog);
   $('save').addEventListener('click', () => saveDialog(session));
   $('export').addEventListener('click', () => exportDialog(session));
+  $('keep').addEventListener('click', () => keepPage(session.title || session.file));
   document.addEventListener('keydown', (e) => {
     const typing = ['INPUT', 'SELECT', 'TEXTAREA'].includes(e.target.tagName) && e.target.type !== 'range' && e.target.type !== 'checkbox';
     if ($('dialog').open) return;
@@ -67,10 +69,12 @@ async function begin() {
   startLab();
   startFiles();
   startFilter();
+  startSlopes();
   toolbar();
   [['modulation', 'modulation'], ['friction', 'friction'], ['section', 'section'], ['pareto', 'designs'], ['decisions', 'decisions']].forEach(([id, name]) => takeable(id, name));
   const all = await state();
   $('version').textContent = all.version;
+  startWords(all.words);
   showKinds(all.kinds);
   showSession(all.session);
   showWish(all.wish);
@@ -82,6 +86,7 @@ async function begin() {
     response: told,
     look: showLook,
     refinement,
+    slopes: showSlopes,
     search: showSearch,
     lab: showLab,
     notice: (n) => notice(n.error),

@@ -1,5 +1,6 @@
-// What is on a chart, to take along: its numbers as CSV, its picture as PNG.
+// What is on the page, to take along: a chart's numbers as CSV, its picture as PNG or SVG, the page as one file.
 import { charts } from '../plots/charts.js';
+import { svgOf } from './svg.js';
 
 export function give(name, content, type) {
   const link = document.createElement('a');
@@ -19,7 +20,7 @@ export function csvOf(chart) {
 export function takeable(id, name) {
   const box = document.createElement('div');
   box.className = 'take';
-  [['CSV', () => give(`${name}.csv`, csvOf(charts[id]), 'text/csv')], ['PNG', () => give(`${name}.png`, charts[id].toBase64Image(), '')]].forEach(([text, work]) => {
+  [['CSV', () => give(`${name}.csv`, csvOf(charts[id]), 'text/csv')], ['PNG', () => give(`${name}.png`, charts[id].toBase64Image(), '')], ['SVG', () => give(`${name}.svg`, svgOf(charts[id]), 'image/svg+xml')]].forEach(([text, work]) => {
     const button = document.createElement('button');
     button.type = 'button';
     button.textContent = text;
@@ -29,3 +30,32 @@ export function takeable(id, name) {
   });
   document.getElementById(id).closest('figure').before(box);
 }
+
+// The page as it stands: pictures in place of canvases, its styles inside, nothing that acts.
+export function pageNow(title) {
+  const page = document.documentElement.cloneNode(true), all = (root, what) => [...root.querySelectorAll(what)];
+  const live = all(document, 'canvas');
+  all(page, 'canvas').forEach((canvas, i) => {
+    const box = live[i].getBoundingClientRect(), image = document.createElement('img');
+    if (!box.width || !live[i].width) return canvas.remove();
+    image.src = live[i].toDataURL();
+    image.alt = live[i].getAttribute('aria-label') || '';
+    image.style.cssText = `width:${Math.round(box.width)}px;height:${Math.round(box.height)}px`;
+    canvas.replaceWith(image);
+  });
+  const fields = all(document, 'input, select');
+  all(page, 'input, select').forEach((field, i) => {
+    const text = document.createElement('span'), now = fields[i];
+    if (now.type === 'range') return field.remove();
+    text.textContent = now.type === 'checkbox' ? (now.checked ? '☑' : '☐') : now.tagName === 'SELECT' ? (now.selectedOptions[0] || {}).text || '' : now.value;
+    text.className = 'kept';
+    field.replaceWith(text);
+  });
+  all(page, 'script, link, dialog, footer, button, .tools, .take, .skip, #meaning, #kinds, #notice, #status').forEach((e) => e.remove());
+  const style = document.createElement('style'), head = page.querySelector('head');
+  style.textContent = [...document.styleSheets].flatMap((sheet) => [...sheet.cssRules].map((rule) => rule.cssText)).join('\n');
+  head.append(style);
+  head.querySelector('title').textContent = title;
+  return `<!DOCTYPE html>\n${page.outerHTML}\n`;
+}
+export const keepPage = (title) => give('papilla.html', pageNow(title), 'text/html');
