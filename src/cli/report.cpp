@@ -10,6 +10,7 @@
 #include "report/comparison.h"
 #include "report/front.h"
 #include "report/page.h"
+#include "report/pdf.h"
 #include "report/sums.h"
 
 namespace papilla::cli {
@@ -20,12 +21,18 @@ struct ReportOptions {
   bool json = false;
 };
 
+// A page for that file: as PDF where it is to be one.
+std::string as_wanted(const std::string& file, std::string page) {
+  return file.ends_with(".pdf") ? page_as_pdf(page) : std::move(page);
+}
+
 // Tables for a terminal, a page where one is asked for.
 int compare(const ReportOptions& options) {
   if (!options.pick.empty() || !options.svg.empty())
     throw InputError("--pick and --svg are of one run, not of two");
   if (!options.out.empty())
-    write_bytes(end_of_links(options.out), comparison_page(options.folder, options.other));
+    write_bytes(end_of_links(options.out),
+                as_wanted(options.out, comparison_page(options.folder, options.other)));
   const std::string text = comparison_markdown(options.folder, options.other);
   if (options.json) {
     std::cout << nlohmann::ordered_json{{"schema", 1}, {"file", options.out}, {"text", text}}.dump(
@@ -44,8 +51,8 @@ int report(const ReportOptions& options) {
   const std::string path = picture               ? options.svg
                            : options.out.empty() ? options.folder + "/report.html"
                                                  : options.out;
-  const std::string text =
-      picture ? front_svg(options.folder) : report_page(options.folder, options.pick);
+  const std::string text = picture ? front_svg(options.folder)
+                                   : as_wanted(path, report_page(options.folder, options.pick));
   if (const auto changed = changed_files(Folder(options.folder)); !changed.empty())
     std::cerr << "warning: not as the run wrote them, or not to be read: "
               << visible(join_names(changed)) << '\n';
@@ -76,7 +83,11 @@ void add_report(Command app, Context& context) {
                   "Another run of `papilla optimize`: both are compared, on the terminal and, with "
                   "--out, as a page")
       .type_name("RESULT_DIR");
-  command.add_option("--out", options->out, "Default: RESULT_DIR/report.html").type_name("FILE");
+  command
+      .add_option(
+          "--out", options->out,
+          "Default: RESULT_DIR/report.html; a name that ends in .pdf is printed by Chromium")
+      .type_name("FILE");
   command.add_option("--svg", options->svg, "The picture of the front alone, to this file")
       .type_name("FILE");
   command.add_flag("--json", options->json, "One JSON object on standard output");
@@ -89,6 +100,7 @@ void add_report(Command app, Context& context) {
         {"papilla report results/study --pick knee --out knee.html",
          "with another design of the front as the best"},
         {"papilla report results/study --svg front.svg", "the picture of the front alone"},
+        {"papilla report results/study --out study.pdf", "the page as PDF, where Chromium is"},
         {"papilla report results/first results/second --out both.html",
          "two runs beside each other"}},
        {{"RESULT_DIR/report.html", "the page"}}});

@@ -108,6 +108,23 @@ TEST(ReportOfOneRun, IsDrawnByABrowserWithoutErrorOrNetwork) {
   expect_drawn(finished_run(), "run/report.html");
 }
 
+TEST(ReportOfOneRun, IsPrintedAsPdf) {
+  const Workplace& place = finished_run();
+  const Outcome none = place.shell("PATH=/nowhere " PAPILLA_PROGRAM " report run --out none.pdf");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("apt install chromium"), std::string::npos) << none.err;
+  EXPECT_FALSE(std::filesystem::exists(place.path() / "none.pdf"));
+  if (place.shell("command -v chromium").status) GTEST_SKIP() << "needs chromium";
+  const Outcome run = place.run("report run --out run.pdf");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string pdf = file_text(place.path() / "run.pdf");
+  EXPECT_TRUE(pdf.starts_with("%PDF-"));
+  EXPECT_NE(pdf.find("%%EOF"), std::string::npos);
+  const std::size_t count = pdf.find("/Count ");
+  ASSERT_NE(count, std::string::npos);
+  EXPECT_GT(std::stoi(pdf.substr(count + 7)), 2);  // pages
+}
+
 TEST(Report, OfARankingIsDrawnAndTheSameByTheCommand) {
   const Workplace place;
   const std::string designs = PAPILLA_SOURCE_DIR "/designs/coatings/";

@@ -16,16 +16,19 @@ export function startScene() {
   $('rh').addEventListener('change', () => { state.shown = -1; fetchMaps(); });
 }
 
-// Curves come first: the picture of a texture that moves waits for a moment without answers, though not for long.
-const waiting = { shape: null, timer: 0, since: 0 };
+// Curves come first: the picture of a texture that moves waits for a moment without answers, though not for long; where
+// drawing is slow (no graphics processor), so long that it takes a thirtieth of the time.
+const waiting = { shape: null, timer: 0, since: 0, drawing: 0 };
 export function showShape(shape) {
-  const now = performance.now(), still = 120, longest = 400;
+  const now = performance.now(), still = 120, longest = Math.max(400, 30 * waiting.drawing);
   if (!waiting.shape) waiting.since = now;
   waiting.shape = shape;
   clearTimeout(waiting.timer);
-  waiting.timer = setTimeout(drawShape, Math.max(0, Math.min(still, waiting.since + longest - now)));
+  waiting.timer = setTimeout(drawShape, Math.max(0, Math.min(Math.max(still, waiting.drawing), waiting.since + longest - now)));
 }
 function drawShape() {
+  const begun = performance.now();
+  requestAnimationFrame(() => setTimeout(() => { waiting.drawing = performance.now() - begun; }));
   const shape = waiting.shape, map = shape.heights, row = sectionRow(map, shape.section), line = heightLine(map, shape.section, row);
   waiting.shape = null;
   showSolid(map);

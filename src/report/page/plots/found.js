@@ -7,7 +7,7 @@ export function found(search) {
   const [x, y] = search.objectives.map((o) => o.name), second = y || 'worst modulation', on = new Set(search.front);
   const known = (p) => p.x !== null && p.x !== undefined && p.y !== null && p.y !== undefined;
   const searched = search.points.map((p, i) => ({ x: p.objectives[0], y: y ? p.objectives[1] : i + 1, evaluation: i, ok: p.ok && p.feasible, values: p.values })).filter(known);
-  const confirmed = search.confirmed.filter((r) => r['on front'] === 'yes' && r[x] !== '').map((r) => ({ x: +r[x], y: +r[second], ex: +r[x + ' se'] || 0, ey: +r[second + ' se'] || 0, front: r.design, doubts: r['p(best)'] ? [round(100 * r['p(best)'], 3) + ' %', round(+r['expected regret'], 2), round(100 * r['p(every limit)'], 3) + ' %'] : [], values: search.variables.map((v) => `${entry(r[v.path + (v.unit ? ` [${v.unit}]` : '')])} ${v.unit}`) }));
+  const confirmed = search.confirmed.filter((r) => r['on front'] === 'yes' && r[x] !== '').map((r) => ({ x: +r[x], y: +r[second], ex: +r[x + ' se'] || 0, ey: +r[second + ' se'] || 0, front: r.design, doubts: r['p(best)'] ? [round(100 * r['p(best)'], 3) + ' %', round(+r['expected regret'], 2), round(100 * r['p(every limit)'], 3) + ' %'] : [], values: search.variables.map((v) => `${entry(r[v.path + (v.unit ? ` [${v.unit}]` : '')])} ${v.unit}`) })).sort((a, b) => a.x - b.x);
   const front = searched.filter((p) => on.has(p.evaluation)).sort((a, b) => a.x - b.x);
   return { searched, confirmed, front, names: [x, y || 'evaluation'] };
 }
