@@ -19,6 +19,7 @@ namespace {
 constexpr double kFarDeviations = 8;    // of the median from the median: outliers
 constexpr double kMostOutliers = 0.02;  // of the pixels; more of them are features
 constexpr double kMostFilled = 0.2;
+constexpr double kNoticedTilt = 0.1 * kPi / 180;  // of a made map: a scan that was saved as one
 constexpr double kSmoothest = 0.1e-9;  // [m] rms; of superpolished glass it is 0.1 nm and more
 
 // The pixels that count: those that are numbers, then those that are no outliers either.
@@ -82,6 +83,11 @@ void level(Heightmap& h, const Sound& sound, bool asked, ScanChanges& changes) {
                           : plane_of(h, 0, 0, g.lx, g.ly, changes.filled > 0 ? &sound : nullptr);
   for (int iy = 0; iy < g.ny; ++iy) {
     for (int ix = 0; ix < g.nx; ++ix) h(ix, iy) -= plane.at(g.x(ix), g.y(iy));
+  }
+  if (changes.made && !changes.repeats && plane.b == 0 && plane.c == 0) {
+    const Plane left = plane_of(h, 0, 0, g.lx, g.ly, changes.filled > 0 ? &sound : nullptr);
+    changes.kept_tilt = std::atan(std::hypot(left.b, left.c));
+    changes.kept_rise = std::abs(left.b) * g.lx + std::abs(left.c) * g.ly;
   }
   changes.slope_x = plane.b;
   changes.slope_y = plane.c;
@@ -212,12 +218,18 @@ std::string text(const std::string& file, const ScanChanges& c) {
   if (c.as_is) {
     out += "taken as it is, neither levelled nor mended";
   } else {
-    out += c.repeats ? "its borders meet, it repeats by itself: no plane was taken away; "
-           : c.made
-               ? "a made map, no instrument's: no plane was taken away (--level, texture.level: it "
-                 "is); "
-               : fmt::format("a plane of {:.3g} deg ({:.4g} nm over the map) was taken away; ",
-                             c.tilt() * 180 / kPi, 1e9 * c.rise);
+    out +=
+        c.repeats ? "its borders meet, it repeats by itself: no plane was taken away; "
+        : c.made
+            ? fmt::format(
+                  "a made map, no instrument's: no plane was taken away{} (--level, "
+                  "texture.level = true take it); ",
+                  c.kept_tilt > kNoticedTilt
+                      ? fmt::format(", though one of {:.3g} deg ({:.4g} nm over the map) is in it",
+                                    c.kept_tilt * 180 / kPi, 1e9 * c.kept_rise)
+                      : "")
+            : fmt::format("a plane of {:.3g} deg ({:.4g} nm over the map) was taken away; ",
+                          c.tilt() * 180 / kPi, 1e9 * c.rise);
     out += c.replaced == 0
                ? "no pixel was replaced"
                : fmt::format(

@@ -28,18 +28,19 @@ struct ScanPlace {
 // Eq. geometry.4
 struct ScanChanges {
   bool as_is = false;
-  bool repeats = false;             // its borders meet: a plane taken away would part them
-  bool made = false;                // an array or an export: its plane belongs to it
-  double width = 0, height = 0;     // sides of the map [m]
-  double slope_x = 0, slope_y = 0;  // of the plane that was taken away
-  double rise = 0;                  // its highest less its lowest place over the map [m]
-  std::size_t pixels = 0;           // of the map
-  std::size_t replaced = 0;         // further than 8 median deviations from the median
-  double furthest = 0;              // of them from the median [m]
-  ScanPlace where;                  // that holds all of them
-  std::size_t filled = 0;           // were no numbers
-  double highest = 0;               // place of the map as it is taken [m]
-  double rms = 0;                   // about its mean, as it is taken [m]
+  bool repeats = false;                 // its borders meet: a plane taken away would part them
+  bool made = false;                    // an array or an export: its plane belongs to it
+  double width = 0, height = 0;         // sides of the map [m]
+  double slope_x = 0, slope_y = 0;      // of the plane that was taken away
+  double kept_tilt = 0, kept_rise = 0;  // of the plane that a made map keeps [rad, m]
+  double rise = 0;                      // its highest less its lowest place over the map [m]
+  std::size_t pixels = 0;               // of the map
+  std::size_t replaced = 0;             // further than 8 median deviations from the median
+  double furthest = 0;                  // of them from the median [m]
+  ScanPlace where;                      // that holds all of them
+  std::size_t filled = 0;               // were no numbers
+  double highest = 0;                   // place of the map as it is taken [m]
+  double rms = 0;                       // about its mean, as it is taken [m]
 
   double tilt() const;  // angle of the plane [rad]
 };

@@ -156,16 +156,20 @@ bool table_list(const Node& node) {
                      [](const Node& item) { return item.is_table(); });
 }
 
+// Under a key that is a path ("texture.type"), as in [design_space]: it stands in its line, in its
+// place among the others, whose order means something.
+bool in_its_line(const Node& node) { return node.is_table() && !bare_key(node.key); }
+
 void write_table(const Node& table, const std::string& path, std::string& out) {
   for (const Node& child : table.children) {
-    if (child.is_table() || table_list(child)) continue;
+    if ((child.is_table() && !in_its_line(child)) || table_list(child)) continue;
     out += key_text(child.key) + " = " + value_text(child);
     if (!child.comment.empty()) out += "  # " + child.comment;
     out += '\n';
   }
   for (const Node& child : table.children) {
     const std::string name = path.empty() ? key_text(child.key) : path + "." + key_text(child.key);
-    if (child.is_table()) {
+    if (child.is_table() && !in_its_line(child)) {
       out += "\n[" + name + "]\n";
       write_table(child, name, out);
     } else if (table_list(child)) {

@@ -13,8 +13,6 @@ constexpr int kSmallestGrid = 16;  // of the control run on half the pixels; bel
 // What is missing to the limit over the last halving of the pixel: order 1.3 for the pull, 1.5 for
 // other quantities. Training scenes of docs/theory/accuracy.md
 constexpr double kPullToLimit = 0.7, kOtherToLimit = 0.55;
-// Contact areas: of the octaves left out, so many at least.
-constexpr double kFewestOctaves = 0.6;
 // What they are too large by through octaves that are left out is taken off; so much of it, one
 // standard deviation, is not known.
 constexpr double kNotKnown = 0.14;
@@ -139,15 +137,11 @@ ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity, co
     // it.
     if (quantity == GridLaw::Pull) missing = std::max(kPullToLimit, runs.octaves);
     if (quantity == GridLaw::Modulation) missing *= std::max(runs.octaves, 1.0);
-    // The step over a grid that resolves the cut-off says how much the area depends on that, not
-    // how well it is resolved; that of coarse features counts on any.
-    if (quantity == GridLaw::Area && runs.octaves == 0) {
-      missing = runs.coarse_features;
-    } else if (quantity == GridLaw::Area) {
-      const double step = grid_error(out.halving);
-      const double all = left_out_of(step, std::max(runs.octaves, kFewestOctaves));
-      missing = all - (1 - kNotKnown) * left_out_of(step, runs.octaves);
-      missing = std::max(missing, runs.coarse_features);
+    // The step says how much the area depends on the cut-off, not how well that is resolved; that
+    // of coarse features counts on any grid.
+    if (quantity == GridLaw::Area) {
+      const double all = left_out_of(grid_error(out.halving), runs.octaves);
+      missing = std::max(kNotKnown * all, runs.coarse_features);
       scatter = std::max(0.0, all - missing);
     }
     // What is taken off is known as well as the control skins agree on it.

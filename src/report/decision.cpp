@@ -57,7 +57,7 @@ std::string worth_text(const ResultFiles& f, const std::string& words, double di
   std::string out =
       fmt::format("{:.2g}{}", difference * shown.scale, shown.unit.empty() ? "" : " " + shown.unit);
   if (d.rule.kind != PickRule::Kind::Knee && d.best_worth != 0)
-    out += fmt::format(" ({:.2g} %)", 100 * difference / std::abs(d.best_worth));
+    out += fmt::format(" ({:.2g} % of its worth)", 100 * difference / std::abs(d.best_worth));
   return stated(bare_number(words, difference * shown.scale, shown.unit, kOfBelief, kOfDecision),
                 out);
 }
@@ -77,7 +77,11 @@ std::string p_limits_text(const ResultFiles& f, std::size_t design) {
                         decision_of(f).designs[design].p_limits);
 }
 
-// "under hypothesis "emission" design 02 is better by 0.01 (2 %)"
+std::string hypothesis_share(const Reversal& r) {
+  return percent_stated("weight of hypothesis \"" + r.name + "\"", r.weight);
+}
+
+// "under hypothesis "emission" (9 % of belief) design 02 is better by 0.01 (2 %)"
 std::string reversal_text(const ResultFiles& f, const std::string& where, const Reversal& r) {
   const Decision& d = decision_of(f);
   if (r.loss > 0)
@@ -118,7 +122,9 @@ std::vector<std::string> overturned(const ResultFiles& f) {
   std::vector<std::string> out;
   for (const Reversal& r : d.hypotheses) {
     if (overturns(d, r))
-      out.push_back(reversal_text(f, fmt::format("under hypothesis \"{}\"", r.name), r));
+      out.push_back(reversal_text(
+          f, fmt::format("under hypothesis \"{}\" ({} of belief)", r.name, hypothesis_share(r)),
+          r));
   }
   if (!d.parameter) return out;
   for (const auto& [half, word] :
@@ -135,7 +141,10 @@ std::string overturned_text(const ResultFiles& f) {
         "no hypothesis and no half of a parameter's values changes the choice by {:.0f} % or more",
         100 * kAlike);
   return join_names(found, "; ") +
-         fmt::format("; nothing else changes the choice by {:.0f} % or more", 100 * kAlike);
+         fmt::format(
+             "; no other hypothesis and no half of a parameter's values does by {:.0f} % or "
+             "more",
+             100 * kAlike);
 }
 
 // How surely the limits hold: "" where the study has none.
@@ -144,11 +153,13 @@ std::string limits_sentence(const ResultFiles& f) {
   const double wanted = f.study.risk.limits;
   if (f.study.constraints.empty()) return {};
   const std::string has = p_limits_text(f, d.best);
-  if (d.sure(wanted)) return fmt::format(" It keeps every limit with probability {}.", has);
+  const std::string made =
+      YieldModel::exists(f.study) ? "" : "; made exactly so, as the study has no [scatter]";
+  if (d.sure(wanted)) return fmt::format(" It keeps every limit with probability {}{}.", has, made);
   return fmt::format(
       " It keeps every limit with probability {}, the highest of the front, where the study wants "
-      "{} (risk.limits): loosen a limit or leave more room to it.",
-      has, percent(wanted));
+      "{} (risk.limits): loosen a limit or leave more room to it{}.",
+      has, percent(wanted), made);
 }
 
 // The design whose measurement beside that of the chosen one settles most: what is better where
@@ -172,9 +183,11 @@ std::string measure_sentence(const ResultFiles& f) {
   const Decision& d = decision_of(f);
   if (d.designs.size() < 2 || d.designs[d.best].p_best > kSure) return {};
   return fmt::format(
-      " To be surer, measure the friction of {} and of {}{}: `papilla next RESULTS --lab LAB` says "
-      "at which humidity, load and voltage first, and `papilla tell LAB TABLE` what it changes.",
+      "To be surer, measure the friction of {} and of {} ({}){}: `papilla next RESULTS` with the "
+      "folder of this run plans it (humidity, load, voltage, repeats) in a table to fill in, and "
+      "`papilla tell` takes the table back and says what it changes.",
       name_of(f, d.best), name_of(f, rival_of(d)),
+      shape_text(f.result.finalists[rival_of(d)].design),
       f.problem.driven() ? " with the drive off and on" : "");
 }
 
@@ -193,7 +206,8 @@ std::string others_sentence(const ResultFiles& f) {
   std::string out;
   if (d.nominal != d.best)
     out += fmt::format(
-        " By the numbers of the fit alone it would be {}{}, with an expected regret of {}.",
+        " By the finger and model as fitted, alone, it would be {}{}, with an expected regret of "
+        "{}.",
         name_of(f, d.nominal), any && often == d.nominal ? ", " + more_often() : "",
         regret_text(f, d.nominal));
   if (any && often != d.nominal)
@@ -210,20 +224,22 @@ std::string chosen_how(const ResultFiles& f) {
 
 }  // namespace
 
-std::string decision_sentence(const ResultFiles& f) {
+std::vector<std::string> decision_grounds(const ResultFiles& f) {
   const Decision& d = decision_of(f);
   if (!d.made()) return {};
   const std::size_t shown = f.result.best;
-  std::string out = fmt::format(
-      " By belief about finger and model it is the best of {} in {} with probability {}, with an "
-      "expected regret of {}",
+  std::string sure = fmt::format(
+      "How sure: over what is not known of finger and model it is the best of {} in {} with "
+      "probability {}, with an expected regret of {}",
       stated(count_number("designs of the front", d.designs.size(), {Stage::Confirm}),
              fmt::format("{}", d.designs.size())),
       worth_name(f), p_best_text(f, shown), regret_text(f, shown));
-  if (shown != d.best) return out + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f));
-  if (d.designs.size() > 1) out += "; " + overturned_text(f);
-  out += ".";
-  return out + others_sentence(f) + measure_sentence(f) + limits_sentence(f);
+  if (shown != d.best)
+    return {sure + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f))};
+  std::vector<std::string> out{sure + "." + others_sentence(f) + limits_sentence(f)};
+  if (d.designs.size() > 1) out.push_back("What would overturn it: " + overturned_text(f) + ".");
+  if (std::string measure = measure_sentence(f); !measure.empty()) out.push_back(measure);
+  return out;
 }
 
 std::string decision_text(const ResultFiles& f) {
@@ -262,8 +278,7 @@ std::string decision_text(const ResultFiles& f) {
   }
   for (const Reversal& r : d.hypotheses)
     out += fmt::format("\n- Under hypothesis \"{}\" ({} of belief) {} has {}.", r.name,
-                       percent_stated("weight of hypothesis \"" + r.name + "\"", r.weight),
-                       name_of(f, r.best), chosen_how(f));
+                       hypothesis_share(r), name_of(f, r.best), chosen_how(f));
   return out + fmt::format("\n\nWhat would overturn it: {}.\n", overturned_text(f));
 }
 

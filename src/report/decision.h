@@ -13,7 +13,7 @@ namespace papilla::report {
 
 // "It is the best of 9 in the worst modulation with probability 71 %, ...; under hypothesis
 // "emission" design 02 is." Of the design that the decision is for; "" without a decision.
-std::string decision_sentence(const ResultFiles& files);
+std::vector<std::string> decision_grounds(const ResultFiles& files);
 // "## Which of them, by belief" of summary.md: each design's probabilities, and what would overturn
 // the choice; why there is none, where there is none.
 std::string decision_text(const ResultFiles& files);

@@ -6,8 +6,10 @@
 
 #include "base/text.h"
 #include "metrics/shown.h"
+#include "report/decision.h"
 #include "report/recommendation.h"
 #include "report/run_numbers.h"
+#include "report/sheet.h"
 
 namespace papilla::report {
 namespace {
@@ -16,6 +18,7 @@ namespace {
 constexpr const char* kOfALook = "by theory, without scatter";
 constexpr const char* kOfACheck =
     "one of the checks: the bar is that of the design, other skins in it";
+constexpr const char* kOfARoom = "read off steps of one number at a time";
 constexpr const char* kLowest = "the lowest over fingers and humidity: no bar is stated for it";
 
 // "15 to 75 %"
@@ -43,6 +46,20 @@ const char* state_text(FingerState state) {
   return "wet fingers";
 }
 
+// ", driven with 200 V at 5 kHz"; "" of a surface without a drive.
+std::string drive_text(const Drive& drive) {
+  if (!drive.driven()) return {};
+  const auto said = [](const char* what, double value, const char* unit) {
+    return stated(bare_number(what, value / find_unit(unit)->to_si, unit, kAsked, {}),
+                  in_unit(value, unit, 4));
+  };
+  const std::string source = drive.control == DriveControl::Voltage
+                                 ? said("amplitude of the drive", drive.amplitude, "V")
+                                 : said("current of the drive", drive.current, "mA");
+  return fmt::format(", driven with {} at {}", source,
+                     said("frequency of the drive", drive.frequency, "kHz"));
+}
+
 // Which fingers and weathers the numbers are for.
 std::string conditions_text(const ResultFiles& f) {
   std::vector<std::string> states;
@@ -60,8 +77,10 @@ std::string conditions_text(const ResultFiles& f) {
   const std::string load = least == most
                                ? said("the", least)
                                : said("the least", least) + " to " + said("the largest", most);
-  return fmt::format("Judged for {} at {} relative humidity under {}.", join_names(states, " and "),
-                     humidity_text(f.study.design.environment.relative_humidity), load);
+  return fmt::format("Judged for {} at {} relative humidity under {}{}.",
+                     join_names(states, " and "),
+                     humidity_text(f.study.design.environment.relative_humidity), load,
+                     drive_text(built_design(f).drive));
 }
 
 // An objective in one of the checks.
@@ -85,7 +104,7 @@ std::string skin_text(const ResultFiles& f) {
   std::vector<std::string> values;
   for (std::size_t k = 0; k < f.problem.objectives().size(); ++k) {
     const StudyObjective& o = f.problem.objectives()[k];
-    values.push_back(fmt::format("{} {} where it has {}", o.name,
+    values.push_back(fmt::format("{} {} in place of {}", o.name,
                                  checked_value(o, other.values[*place][k], other.name),
                                  checked_value(o, own.values[*place][k], own.name)));
   }
@@ -95,10 +114,11 @@ std::string skin_text(const ResultFiles& f) {
                   fmt::format("{:.3f}", v.worst[*place]));
   };
   if (f.problem.driven() && *place < other.worst.size())
-    values.push_back(
-        fmt::format("a worst modulation of {} where it has {}", worst(other), worst(own)));
-  return fmt::format("On {} ({}) it has {}.", other.name, f.problem.tasks().front().name,
-                     join_names(values));
+    values.push_back(fmt::format("a worst modulation of {}{} in place of {}", worst(other),
+                                 other.worst[*place] < kNoticed ? ", which nobody feels," : "",
+                                 worst(own)));
+  return fmt::format("Finger \"{}\" alone has on {} {}.", f.problem.tasks().front().name,
+                     other.name, join_names(values));
 }
 
 // Choices of the model, and how far each moves the design alone. Without belief no ± holds any.
@@ -124,8 +144,12 @@ std::string model_text(const ResultFiles& f) {
                     checked_value(o, (*low)[k], "the choice of the model that makes it least"),
                     checked_value(o, (*high)[k], "the choice of the model that makes it largest")));
   }
-  return fmt::format("{} ({}): over these {}.", out, join_names(names),
-                     ranges.empty() ? "it has no value" : "it has " + join_names(ranges));
+  return fmt::format(
+      "{} ({} of them, on finger \"{}\"; \"Does the order hold?\" has each): over these {}.", out,
+      stated(count_number("choices of the model that were tried", names.size(), {Stage::Stability}),
+             fmt::format("{}", names.size())),
+      f.problem.tasks().front().name,
+      ranges.empty() ? "it has no value" : "it has " + join_names(ranges));
 }
 
 // A modulation that nobody feels somewhere.
@@ -155,6 +179,52 @@ std::string look_text(const ResultFiles& f) {
                      look.warning.empty() ? "" : " (" + look.warning + ")");
 }
 
+// What the fab lays, takes away and leaves of a film that the texture is cut into.
+std::string film_text(const ResultFiles& f) {
+  const Design built = built_design(f);
+  const std::optional<Planes> planes = facts(built.texture).relief.planes;
+  const std::vector<FilmDielectric>& films = built.surface.dielectric;
+  if (built.surface.process != FilmProcess::Planar || films.size() != 1 || !planes ||
+      !(planes->high > planes->low))
+    return {};
+  const auto said = [](const char* what, double length) {
+    return stated(bare_number(what, 1e9 * length, "nm", kChosen, {Stage::Confirm, Stage::Rounding}),
+                  in_unit(length, "nm", 4));
+  };
+  return fmt::format(
+      "Film: {} of {} are laid, {} are taken away where the texture is deep, {} stay there.",
+      said("film as laid", films[0].thickness + planes->high),
+      films[0].material.empty() ? "it" : films[0].material,
+      said("film taken away", planes->high - planes->low),
+      said("film that stays", films[0].thickness + planes->low));
+}
+
+// Dimensions that a limit leaves nothing or little: what the fab has to know first.
+std::string room_text(const ResultFiles& f) {
+  std::vector<std::string> none;
+  for (const SheetRow& row : sheet_rows(f)) {
+    const auto add = [&](const std::optional<Drift>& drift, const char* way) {
+      if (!drift || drift->end != Drift::End::Limit) return;
+      const double unit = find_unit(row.unit)->to_si;
+      none.push_back(fmt::format(
+          "{} {} {} ({})", row.path,
+          drift->most > 0
+              ? "at most " +
+                    stated(bare_number(fmt::format("room {} of {}", way, row.path),
+                                       drift->most / unit, row.unit, kOfARoom,
+                                       {Stage::Confirm, Stage::Rounding, Stage::Sensitivity}),
+                           in_unit(drift->most, row.unit, 2))
+              : std::string("not at all"),
+          way, drift->limit));
+    };
+    add(row.down, "down");
+    add(row.up, "up");
+  }
+  if (none.empty()) return {};
+  return "Limits leave the making little room, one dimension at a time: " + join_names(none, "; ") +
+         ".";
+}
+
 }  // namespace
 
 std::string worst_text(const std::string& of, double worst) {
@@ -164,8 +234,12 @@ std::string worst_text(const std::string& of, double worst) {
 }
 
 std::vector<std::string> grounds(const ResultFiles& f) {
-  std::vector<std::string> out{conditions_text(f) + " " + skin_text(f), model_text(f)};
-  for (std::string said : {felt_text(f), look_text(f)}) {
+  std::vector<std::string> out;
+  if (search::advice_of(f.problem, f.result) == Advice::Texture) out = decision_grounds(f);
+  if (std::string film = film_text(f); !film.empty()) out.push_back(std::move(film));
+  out.push_back(conditions_text(f) + " " + skin_text(f));
+  out.push_back(model_text(f));
+  for (std::string said : {room_text(f), felt_text(f), look_text(f)}) {
     if (!said.empty()) out.push_back(std::move(said));
   }
   return out;

@@ -149,7 +149,7 @@ std::string plan_table(const Lab& lab, const PlanRecord& plan) {
   const bool fields = std::any_of(plan.experiments.begin(), plan.experiments.end(),
                                   [](const PlannedExperiment& e) { return !e.field.empty(); });
   std::vector<std::string> head{
-      "", "design", "conditions", "touches", "F_off expected [mN]", "F_on expected [mN]"};
+      "experiment", "design", "conditions", "touches", "F_off expected [mN]", "F_on expected [mN]"};
   if (fields) head.insert(head.begin() + 1, "field");
   std::string out = markdown_head(head);
   for (const PlannedExperiment& e : plan.experiments) {

@@ -122,6 +122,13 @@ std::string dominance_tables(const std::vector<std::string>& names, const RankOp
   return aligned_table(rows, 2) + "\n" + aligned_table(pairs, 1) + "\n";
 }
 
+int skins_of(const StateRanking& state, std::size_t candidate) {
+  for (const RankedCandidate& r : state.candidates) {
+    if (r.index == candidate) return r.skins;
+  }
+  return 0;
+}
+
 // Whether more skins would say more, in words.
 std::string end_text(const std::vector<std::string>& names, const RankOptions& options,
                      const StateRanking& state) {
@@ -133,6 +140,13 @@ std::string end_text(const std::vector<std::string>& names, const RankOptions& o
     if (!options.scored()) both += fmt::format(" in {}", options.criteria[pair.criterion].text());
     open.push_back(std::move(both));
   }
+  const bool spent = std::any_of(state.open.begin(), state.open.end(), [&](const OpenPair& pair) {
+    return std::min(skins_of(state, pair.first), skins_of(state, pair.second)) >= options.max_skins;
+  });
+  if (!spent && options.parameters)
+    return fmt::format(
+        "more skins would not settle what is not known of finger and model, which leaves open: {}",
+        join_names(open, "; "));
   return fmt::format(
       "the budget of {} skins per design (--max-skins) is spent with the order open: {}",
       options.max_skins, join_names(open, "; "));

@@ -8,7 +8,6 @@
 #include "base/units.h"
 #include "design/families.h"
 #include "metrics/shown.h"
-#include "report/decision.h"
 #include "report/limits.h"
 #include "report/run_numbers.h"
 #include "report/unstable.h"
@@ -36,7 +35,8 @@ std::string changes(const ResultFiles& f, const std::string& words, const Score&
     const std::string bar = scatters(change, error) ? " ± " + shown_error(o.expression, error) : "";
     const std::string said = fmt::format("{}{}{}", shown_value(o.expression, change, true), bar,
                                          unit.empty() ? "" : " " + unit);
-    out.push_back(o.name + " " + stated(difference_number(f, words, design, other, k), said));
+    out.push_back(o.name + " " + stated(difference_number(f, words, design, other, k), said) +
+                  (o.maximise ? "" : " (lower is better)"));
   }
   return join_names(out);
 }
@@ -59,15 +59,18 @@ std::string chosen_value(const Variable& v, double value, const std::string& of)
                 text);
 }
 
-// "surface.contact_angle 60 deg to 90 deg": what of the best design is not the texture's.
+// "surface.contact_angle 90 deg (60 deg in the study)": what of that which is built is not the
+// texture's.
 std::string finish_text(const ResultFiles& f) {
   const std::vector<double> own = f.problem.space().value(f.problem.space().unit_of_study());
-  const std::vector<double> best = f.problem.space().value(best_of(f).unit);
+  const Point& unit = f.result.build ? f.result.build->made.unit : best_of(f).unit;
+  const std::vector<double> built = f.problem.space().value(unit);
   std::vector<std::string> out;
   for (std::size_t k : changed_finish(f.problem, f.result)) {
     const Variable& v = f.study.variables[k];
-    out.push_back(fmt::format("{} {} to {}", v.path, chosen_value(v, own[k], "the study"),
-                              chosen_value(v, best[k], "the best")));
+    out.push_back(fmt::format("{} {} ({} in the study)", v.path,
+                              chosen_value(v, built[k], "what is built"),
+                              chosen_value(v, own[k], "the study")));
   }
   return join_names(out);
 }
@@ -168,7 +171,7 @@ std::string worth_building(const ResultFiles& f) {
         both.empty() ? "is no better and no worse than the error of the difference" : both));
   }
   if (const std::string finish = finish_text(f); !finish.empty())
-    clauses.push_back("The finish changes too (" + finish + ").");
+    clauses.insert(clauses.begin(), "Film, finish and drive with it: " + finish + ".");
   return fmt::format("Build {} ({}). {}", design_name(best.folder), shape_text(built_design(f)),
                      join_names(clauses, " "));
 }
@@ -216,6 +219,7 @@ std::string judged_on_grid(const BuiltDesign& build) {
 std::string shape_text(const Design& design) {
   Texture texture = design.texture;
   const TextureFacts of = facts(texture);
+  if (!of.relief.present) return "without texture";
   const auto* array = std::get_if<FeatureArray>(&of.outline);
   std::string kind =
       array ? std::string(array->drawn) : std::string(texture_kinds()[texture.kind.index()]);
@@ -235,8 +239,8 @@ std::string shape_text(const Design& design) {
     }
   };
   add(role.width, "wide");
-  add(role.period, "apart");
   add(role.depth, array && !array->deep ? "high" : "deep");
+  add(role.period, "from one to the next");
   return measures.empty() ? kind : kind + " " + join_names(measures);
 }
 
@@ -268,8 +272,7 @@ std::string recommendation(const ResultFiles& f) {
     case Advice::Texture:
       break;
   }
-  return worth_building(f) + decision_sentence(f) + yield_sentence(f) + rounding_text(f) +
-         unstable_recommended(f);
+  return worth_building(f) + yield_sentence(f) + rounding_text(f) + unstable_recommended(f);
 }
 
 }  // namespace papilla::report

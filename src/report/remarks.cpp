@@ -116,6 +116,18 @@ std::string bound_remark(const Study& study, const StudyProblem& problem, const 
                            join_names(gains));
 }
 
+// Whether going on beyond a bound promises more than nobody would ask for.
+bool promises(const StudyProblem& problem, const OptimiseResult& result, const AtBound& at) {
+  constexpr double kLittle = 0.01;  // of an objective
+  if (at.last || at.change.empty() || !result.has_best()) return true;
+  const std::vector<double>& values = result.finalists[result.best].confirmed.values;
+  for (std::size_t k = 0; k < at.change.size() && k < values.size(); ++k) {
+    const double gain = problem.objectives()[k].maximise ? at.change[k] : -at.change[k];
+    if (gain > kLittle * std::abs(values[k])) return true;
+  }
+  return values.empty();
+}
+
 }  // namespace
 
 std::vector<std::string> run_remarks(const Study& study, const StudyProblem& problem,
@@ -128,7 +140,9 @@ std::vector<std::string> run_remarks(const Study& study, const StudyProblem& pro
   add(few_remark(result));
   for (const OneValue& one : result.one_value)
     add(one_value_remark(study, one, result.evaluations));
-  for (const AtBound& at : result.at_bound) add(bound_remark(study, problem, at));
+  for (const AtBound& at : result.at_bound) {
+    if (promises(problem, result, at)) add(bound_remark(study, problem, at));
+  }
   return out;
 }
 

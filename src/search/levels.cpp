@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "estimate/belief.h"
 #include "forward/plan.h"
@@ -235,8 +236,10 @@ std::string search_plan(const Study& study) {
     const ModelCost cost =
         model_cost(problem.tasks().front().finger,
                    steps_fidelity(problem, stage_fidelity(problem, Stage::Belief)));
-    out += fmt::format("\nfinalists at the {} members of {}, for which of them to build:\n",
-                       problem.belief()->members.size(), problem.belief()->file) +
+    out += fmt::format(
+               "\nfinalists at the {} members of the belief in {}, for which of them to build:\n",
+               problem.belief()->members.size(),
+               std::filesystem::path(problem.belief()->file).filename().string()) +
            plan_at(problem, cost.fidelity).text();
   }
   return out;

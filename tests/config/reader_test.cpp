@@ -699,8 +699,8 @@ TEST(Toml, IsWrittenAsItIsRead) {
       "z = 1\na = -2.5\nlarge = 1e300\nwhole = 3.0\nup = inf\ndown = -inf\nnone = nan\n"
       "yes = true\nno = false\n\"two words\" = \"x\"\n\"\" = \"\"\nmixed = [1, { b = 2 }, [3, "
       "[]]]\n"
-      "empty = []\nescaped = \"\\\\ \\\" \\n \\t \\u0001 \\u007F\"\n\n[A-b_9]\n\n"
-      "[A-b_9.\"c.d\"]\n\n[[list]]\na = 1\n\n[[list]]\n\n[list.in]\nb = 2\n";
+      "empty = []\nescaped = \"\\\\ \\\" \\n \\t \\u0001 \\u007F\"\n\n[A-b_9]\n"
+      "\"c.d\" = { e = 1 }\nf = 2\n\n[[list]]\na = 1\n\n[[list]]\n\n[list.in]\nb = 2\n";
   EXPECT_EQ(write_toml(parse_toml(text, "x")), text);
 }
 

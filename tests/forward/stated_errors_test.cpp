@@ -145,12 +145,13 @@ TEST(StatedErrors, OctavesThatTheGridLeavesOutAreTakenOffTheAreas) {
   runs.coarse_features = 0.2;
   EXPECT_NEAR(grid_part(runs, area), 0.2 * 0.1, 1e-9);
   runs.coarse_features = 0;
-  // Of one that leaves next to nothing out little is taken off, and that its areas are known no
-  // better than by 0.6 of an octave is not forgotten.
-  runs.octaves = 0.3;
-  EXPECT_NEAR(resolved_areas(runs), std::pow(1.1, -0.3), 1e-9);
-  EXPECT_NEAR(grid_part(runs, area), 1 - std::pow(1.1, -0.6) - 0.86 * (1 - std::pow(1.1, -0.3)),
-              1e-9);
+  // Of one that leaves next to nothing out next to nothing is taken off and not known: no cliff.
+  for (double octaves : {0.3, 1e-6}) {
+    runs.octaves = octaves;
+    const double lacking = 1 - std::pow(1.1, -octaves);
+    EXPECT_NEAR(resolved_areas(runs), 1 - lacking, 1e-12) << octaves;
+    EXPECT_NEAR(grid_part(runs, area), 0.14 * lacking, 1e-12) << octaves;
+  }
   // No control runs, nothing known.
   EXPECT_EQ(resolved_areas({}), 1);
 }

@@ -213,6 +213,12 @@ TEST(RankingReport, WithoutWeightsItSaysWhoIsBeatenByWhom) {
   EXPECT_EQ(lines[9],
             "the budget of 96 skins per design (--max-skins) is spent with the order open: fine "
             "and hard in mean(compliance):high; 42 patches of skin tried");
+  RankOptions with = r.options;
+  with.parameters = true;  // and both have met fewer
+  EXPECT_NE(ranking_table(r.names, with, r.ranking)
+                .find("more skins would not settle what is not known of finger and model, which "
+                      "leaves open: fine and hard in mean(compliance):high"),
+            std::string::npos);
   EXPECT_NE(table.find("  finger.load: 0.3 N in hard, 0.2 N in fine\n"), std::string::npos);
   EXPECT_NE(table.find("no weights (--weights)"), std::string::npos);
   EXPECT_NE(table.find("what the fit of the finger leaves open"), std::string::npos);

@@ -210,13 +210,15 @@ TEST(BuildSheet, SaysWhatTheTextureGainsAndItsTolerances) {
   costly.result.flat = score(0.4, 0.2, 0.2);  // 0.1 more variation with the texture
   EXPECT_NE(as_read(recommendation(costly.files()))
                 .find("it gains mean(modulation) +0.100 ± 0.013 and costs variation(modulation) "
-                      "+0.100 ± 0.023. The finish"),
+                      "+0.100 ± 0.023 (lower is better)."),
             std::string::npos)
       << as_read(recommendation(costly.files()));
   costly.result.flat = score(0.49, 0.29, 0.2);  // the texture gains 0.010, within its error
   EXPECT_EQ(as_read(recommendation(costly.files())),
-            "Leave it flat and change the finish (surface.contact_angle 50 deg to 70 deg): that "
-            "gains mean(modulation) +0.140 ± 0.013, variation(modulation) -0.160 ± 0.023; no "
+            "Leave it flat and change the finish (surface.contact_angle 70 deg (50 deg in the "
+            "study)): that "
+            "gains mean(modulation) +0.140 ± 0.013, variation(modulation) -0.160 ± 0.023 (lower is "
+            "better); no "
             "texture of this search adds more than the error of the difference.");
   costly.result.flat.reset();
   EXPECT_EQ(advice_of(costly.problem, costly.result), Advice::Unknown);
@@ -264,11 +266,12 @@ TEST(BuildSheet, SaysWhyAPlaceDoesNotHoldAndTheAlternative) {
   run.result.stability.variants[1].on_front = {false, true};
   run.result.stability.variants[1].beaten_by = {1, std::nullopt};
   run.result.stability.times_on_front = {1, 2};
-  EXPECT_NE(as_read(recommendation(run.files()))
-                .find(" Its place does not hold: 1 of 2 checks (smooth: design 02 is better). The "
-                      "alternative that holds in 2 of 2 is design 02 (holes 4 um wide, 8 um apart, "
-                      "500 nm deep)."),
-            std::string::npos)
+  EXPECT_NE(
+      as_read(recommendation(run.files()))
+          .find(" Its place does not hold: 1 of 2 checks (smooth: design 02 is better). The "
+                "alternative that holds in 2 of 2 is design 02 (holes 4 um wide, 500 nm deep, "
+                "8 um from one to the next)."),
+      std::string::npos)
       << as_read(recommendation(run.files()));
 }
 
@@ -286,17 +289,24 @@ TEST(BuildSheet, SaysWhatItRestsOn) {
   s.other_skin = 1;
   run.result.finalists[0].confirmed.worst = 0.053;
   const std::vector<std::string> said = grounds(run.files());
-  ASSERT_GE(said.size(), 3u);
-  EXPECT_EQ(as_read(said[0]),
-            "Judged for degreased fingers (finger.state = \"clean\") at 15 to 75 % relative "
-            "humidity under 0.2 N. On natural skin, not degreased (" +
-                run.problem.tasks().front().name +
-                ") it has mean(modulation) 0.296 where it has 0.500, variation(modulation) 0.627 "
-                "where it has 0.300, a worst modulation of 0.007 where it has 0.250.");
+  ASSERT_GE(said.size(), 4u);
+  EXPECT_EQ(
+      as_read(said[0]),
+      "Judged for degreased fingers (finger.state = \"clean\") at 15 to 75 % relative "
+      "humidity under 0.2 N, driven with 200 V at 5 kHz. Finger \"" +
+          run.problem.tasks().front().name +
+          "\" alone has on natural skin, not degreased mean(modulation) 0.296 in place of "
+          "0.500, variation(modulation) 0.627 in place of 0.300, a worst modulation of 0.007, "
+          "which nobody feels, in place of 0.250.");
   EXPECT_EQ(as_read(said[1]),
-            "In no ±: choices of the model (air breaks down, equilibrium): over these "
-            "it has mean(modulation) 0.252 to 0.922, variation(modulation) 0.200 to 0.400.");
-  EXPECT_EQ(as_read(said[2]),
+            "In no ±: choices of the model (2 of them, on finger \"reference\"; \"Does the order "
+            "hold?\" has each): over these it has mean(modulation) 0.252 to 0.922, "
+            "variation(modulation) 0.200 to 0.400.");
+  EXPECT_EQ(
+      as_read(said[2]),
+      "Limits leave the making little room, one dimension at a time: texture.depth at most 20 "
+      "nm up (min_wall).");
+  EXPECT_EQ(as_read(said[3]),
             "At its worst, over fingers and humidity, the modulation is 0.053: below 0.2, the "
             "least relative difference of friction that people notice (Fehlberg 2022), it is not "
             "felt there.");
@@ -310,11 +320,13 @@ TEST(BuildSheet, ComparesWithTheBestFlatSurfaceOfTheRunToo) {
   flat.design = run.problem.space().design(flat.unit);
   flat.confirmed = score(0.724, 0.9, 0.1);
   flat.feasible = flat.on_front = true, flat.folder = "front/02";
-  EXPECT_NE(as_read(recommendation(run.files()))
-                .find("Against the best flat surface of this run, design 02 (surface.contact_angle "
-                      "40 deg), it gains variation(modulation) -0.600 ± 0.023 and costs "
-                      "mean(modulation) -0.224 ± 0.013."),
-            std::string::npos)
+  EXPECT_NE(
+      as_read(recommendation(run.files()))
+          .find(
+              "Against the best flat surface of this run, design 02 (surface.contact_angle "
+              "40 deg), it gains variation(modulation) -0.600 ± 0.023 (lower is better) and costs "
+              "mean(modulation) -0.224 ± 0.013."),
+      std::string::npos)
       << as_read(recommendation(run.files()));
   // A flat surface has no dimensions.
   EXPECT_NE(result_table(run.study, run.result).find("| front/02 |  |  |  | 40 deg |"),
@@ -348,7 +360,7 @@ TEST(BuildSheet, ForProgramsIsInTheUnitsOfTheStudy) {
   EXPECT_EQ(json["stopped_by_the_clock"], false);
   EXPECT_EQ(json["driven"], true);
   EXPECT_EQ(json["remarks"].size(), 1u);
-  EXPECT_EQ(json["finish"], "surface.contact_angle 50 deg to 70 deg");
+  EXPECT_EQ(json["finish"], "surface.contact_angle 70 deg (50 deg in the study)");
   expect_same(json["shown"]["mean(modulation)"], {{"scale", 1}, {"unit", ""}}, "shown");
   expect_same(
       json["sheet"][0],

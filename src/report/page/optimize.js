@@ -274,13 +274,21 @@ function select(name) {
 
 // ---- the page ----
 const best = data.designs.best, flat = best.flat;
-// Between backticks stand commands.
-run.recommendation.split('`').forEach((part, i) => {
-  const piece = i % 2 ? document.createElement('code') : document.createTextNode('');
-  piece.textContent = part;
-  $('lead').appendChild(piece);
+// Between backticks stand commands; what a ground is about stands before its first colon.
+function words(place, text) {
+  text.split('`').forEach((part, i) => {
+    const piece = i % 2 ? document.createElement('code') : document.createTextNode('');
+    piece.textContent = part;
+    place.appendChild(piece);
+  });
+  return place;
+}
+words($('lead'), run.recommendation);
+const said = (list, texts) => (texts || []).forEach((text) => {
+  const item = document.createElement('li'), [all, about, rest] = /^(How sure|What would overturn it|To be surer)(:? ?.*)$/s.exec(text) || [];
+  if (all) item.appendChild(document.createElement('strong')).textContent = about;
+  list.appendChild(words(item, all ? rest : text));
 });
-const said = (list, texts) => (texts || []).forEach((text) => { const item = document.createElement('li'); item.textContent = text; list.appendChild(item); });
 said($('grounds'), run.grounds);
 said($('remarks'), run.remarks);
 $('grid').textContent = run.build ? run.build.said.replace(/`/g, '') : '';
