@@ -9,7 +9,6 @@
 #include "base/parallel.h"
 #include "config/writer.h"
 #include "estimate/belief.h"
-#include "forward/dry_areas.h"
 #include "forward/forward.h"
 #include "numerics/statistics.h"
 
@@ -17,9 +16,6 @@ namespace papilla::lab {
 namespace {
 
 constexpr std::size_t kNumbers = 4;  // of a member: off, on, and their errors
-// For what the few pixels make contact areas too large by (Eq. accuracy.17): a reading is of a
-// force, not of a ratio.
-constexpr int kDrySkins = 2;
 
 // Hexadecimal, so that a number reads back to its last bit.
 std::string written(const std::vector<double>& numbers) {
@@ -39,6 +35,12 @@ std::vector<double> read_numbers(const std::string& text) {
 }
 
 double share(const Measured& m) { return m.value > 0 ? m.parts.sampling / m.value : 0; }
+
+// What few skins and pixels say moved to what the design's own level says of its own finger: a
+// reading is of a force, which few pixels make too large by tens of percent. Eq. accuracy.15
+double moved(const Measured& at_member, const Measured& few, const Measured& own) {
+  return few.value > 0 ? at_member.value * own.value / few.value : std::nan("");
+}
 
 }  // namespace
 
@@ -79,7 +81,7 @@ std::vector<Response> MemberModel::runs(const Design& design) const {
       [&](int i) {
         const auto k = static_cast<std::size_t>(i);
         const Watch quiet({}, nullptr);  // members are counted, not their skins
-        out[k] = evaluate_resolved(scenes[k], design.texture, few, kDrySkins);
+        out[k] = respond(scenes[k], few, solve_patches(scenes[k], design.texture, few));
       },
       threads_);
   return out;
@@ -100,23 +102,30 @@ std::vector<double> MemberModel::kept(const std::string& question, std::size_t s
 
 MemberFriction MemberModel::friction(const Design& design, const Conditions& at) {
   const Design there = under_conditions(design, at);
-  const std::vector<double> answer =
-      kept("friction of resolved areas\n" + write_toml(to_table(there)),
-           kNumbers * belief_.members.size(), [&] {
-             if (note_)
-               note_(fmt::format("{}, {}, at {} members", there.title, text(at),
-                                 belief_.members.size()));
-             std::vector<double> out;
-             for (const Response& r : runs(there)) {
-               const ResponsePoint& p = r.points.front();
-               const bool off = p.knows_undriven(), on = r.driven && p.knows_driven();
-               out.push_back(off ? p.friction_off.value : std::nan(""));
-               out.push_back(on ? p.friction_on.value : std::nan(""));
-               out.push_back(share(p.friction_off));
-               out.push_back(share(p.friction_on));
-             }
-             return out;
-           });
+  const std::vector<double> answer = kept(
+      "friction at the design's level\n" + write_toml(to_table(there)),
+      kNumbers * belief_.members.size(), [&] {
+        if (note_)
+          note_(
+              fmt::format("{}, {}, at {} members", there.title, text(at), belief_.members.size()));
+        const Scene scene = scene_of(there);
+        const Fidelity wanted = fidelity_of(there), least = belief_fidelity(wanted);
+        const ResponsePoint own = evaluate(scene, there.texture, wanted).points.front();
+        const ResponsePoint few =
+            respond(scene, least, solve_patches(scene, there.texture, least)).points.front();
+        std::vector<double> out;
+        for (const Response& r : runs(there)) {
+          const ResponsePoint& p = r.points.front();
+          const bool off = p.knows_undriven() && own.knows_undriven(),
+                     on = r.driven && p.knows_driven() && own.knows_driven();
+          out.push_back(off ? moved(p.friction_off, few.friction_off, own.friction_off)
+                            : std::nan(""));
+          out.push_back(on ? moved(p.friction_on, few.friction_on, own.friction_on) : std::nan(""));
+          out.push_back(share(own.friction_off));
+          out.push_back(share(own.friction_on));
+        }
+        return out;
+      });
   MemberFriction out;
   std::vector<double> off_se, on_se;
   for (std::size_t i = 0; i < answer.size(); i += kNumbers) {
@@ -133,20 +142,20 @@ MemberFriction MemberModel::friction(const Design& design, const Conditions& at)
 std::vector<double> MemberModel::worth(const Design& design, const MetricExpression& expression) {
   Design own = design;
   own.finger.belief.clear();
-  return kept(
-      "worth of resolved areas " + metric_text(expression) + "\n" + write_toml(to_table(own)),
-      belief_.members.size(), [&] {
-        if (note_)
-          note_(fmt::format("{}: {} at {} members", design.title, metric_text(expression),
-                            belief_.members.size()));
-        const double sign = better_direction(expression) == Better::Lower ? -1 : 1;
-        std::vector<double> out;
-        for (const Response& r : runs(own)) {
-          const auto value = summary_of_points(expression.summary, expression.metric, r.points);
-          out.push_back(value ? sign * *value : std::nan(""));
-        }
-        return out;
-      });
+  return kept("worth " + metric_text(expression) + "\n" + write_toml(to_table(own)),
+              belief_.members.size(), [&] {
+                if (note_)
+                  note_(fmt::format("{}: {} at {} members", design.title, metric_text(expression),
+                                    belief_.members.size()));
+                const double sign = better_direction(expression) == Better::Lower ? -1 : 1;
+                std::vector<double> out;
+                for (const Response& r : runs(own)) {
+                  const auto value =
+                      summary_of_points(expression.summary, expression.metric, r.points);
+                  out.push_back(value ? sign * *value : std::nan(""));
+                }
+                return out;
+              });
 }
 
 }  // namespace papilla::lab

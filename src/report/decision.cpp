@@ -154,7 +154,7 @@ std::string limits_sentence(const ResultFiles& f) {
   if (f.study.constraints.empty()) return {};
   const std::string has = p_limits_text(f, d.best);
   const std::string made =
-      YieldModel::exists(f.study) ? "" : "; made exactly so, as the study has no [scatter]";
+      YieldModel::exists(f.study) ? "" : ", if it is made exactly so (the study has no [scatter])";
   if (d.sure(wanted)) return fmt::format(" It keeps every limit with probability {}{}.", has, made);
   return fmt::format(
       " It keeps every limit with probability {}, the highest of the front, where the study wants "

@@ -78,13 +78,15 @@ std::string facts_text(const ResultFiles& f) {
     out.push_back(f.problem.objectives()[k].name + " " +
                   objective_text(f, own, design.confirmed, k));
     if (f.result.flat)
-      out.back() += fmt::format(" (flat {})", objective_text(f, of_flat, *f.result.flat, k));
+      out.back() += fmt::format(" (the same without texture {})",
+                                objective_text(f, of_flat, *f.result.flat, k));
   }
   std::string said =
       (design.flat ? "The flat surface has " : "The best design has ") + join_names(out, ", ");
   if (f.problem.driven()) {
     said += ", and a worst modulation of " + worst_text(own, design.confirmed.worst);
-    if (f.result.flat) said += fmt::format(" (flat {})", worst_text(of_flat, f.result.flat->worst));
+    if (f.result.flat)
+      said += fmt::format(" (without texture {})", worst_text(of_flat, f.result.flat->worst));
     said += " over fingers and humidity";
   }
   return said + (design.feasible ? "." : ". It does not keep every constraint.");
