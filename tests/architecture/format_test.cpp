@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cstdlib>
 
 #include "tests/architecture/source_tree.h"
@@ -23,6 +24,17 @@ TEST(Sources, AreFormattedByClangFormat) {
             0);
 }
 
+// As a word of its own: the pictures in notebooks are long words of any letters.
+bool has_word(const std::string& text, const std::string& word) {
+  const auto part = [&](std::size_t i) {
+    return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) != 0);
+  };
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    if (!(at > 0 && part(at - 1)) && !part(at + word.size())) return true;
+  }
+  return false;
+}
+
 TEST(Sources, HaveNoUnfinishedMarks) {
   for (const std::string& file : source_files(
            {"src", "geometry", "optim", "include", "python", "bench", "tests", "designs", "docs"},
@@ -30,7 +42,7 @@ TEST(Sources, HaveNoUnfinishedMarks) {
     if (file == "tests/architecture/format_test.cpp") continue;
     const std::string text = read_source(std::string(PAPILLA_SOURCE_DIR) + "/" + file);
     for (const char* mark : {"TODO", "FIXME", "XXX", "HACK"}) {
-      EXPECT_EQ(text.find(mark), std::string::npos) << file << " has a " << mark;
+      EXPECT_FALSE(has_word(text, mark)) << file << " has a " << mark;
     }
   }
 }
