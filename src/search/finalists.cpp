@@ -286,7 +286,7 @@ bool confirm(Run& run) {
     }
     run.progress("confirm", static_cast<int>(done + 1), static_cast<int>(chosen.size()),
                  run.seconds_of_designs(chosen.size() - done - 1, Stage::Confirm) +
-                     run.seconds_from(RunPart::Stability));
+                     run.seconds_from(RunPart::Belief));
   }
   run.cut(RunPart::Confirm, run.result.finalists.size(), chosen.size());
   judge(run);

@@ -493,6 +493,8 @@ def keys(browser, folder):
         tab_to(browser, "e.closest('#frontlist') && e.tagName === 'BUTTON'", "a design of the front")
         press(browser, ENTER)
         until(browser, "papilla.session().changes.length > 0", 30, "the picked design")
+        # Not what was still told of the first search.
+        until(browser, "document.getElementById('stage').textContent.includes('searches/002') && papilla.charts.pareto.data.datasets.some(s => s.data.length)", 180, "designs of the steered search")
         tab_to(browser, "e.id === 'pause'", "Pause")
         press(browser, SPACE)
         until(browser, "document.getElementById('searchstate').textContent === 'paused'", 30, "the pause")
