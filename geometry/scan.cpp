@@ -84,7 +84,7 @@ void level(Heightmap& h, const Sound& sound, bool asked, ScanChanges& changes) {
   for (int iy = 0; iy < g.ny; ++iy) {
     for (int ix = 0; ix < g.nx; ++ix) h(ix, iy) -= plane.at(g.x(ix), g.y(iy));
   }
-  if (changes.made && !changes.repeats && plane.b == 0 && plane.c == 0) {
+  if (changes.made && !changes.repeats) {
     const Plane left = plane_of(h, 0, 0, g.lx, g.ly, changes.filled > 0 ? &sound : nullptr);
     changes.kept_tilt = std::atan(std::hypot(left.b, left.c));
     changes.kept_rise = std::abs(left.b) * g.lx + std::abs(left.c) * g.ly;

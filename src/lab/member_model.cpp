@@ -36,12 +36,6 @@ std::vector<double> read_numbers(const std::string& text) {
 
 double share(const Measured& m) { return m.value > 0 ? m.parts.sampling / m.value : 0; }
 
-// What few skins and pixels say moved to what the design's own level says of its own finger: a
-// reading is of a force, which few pixels make too large by tens of percent. Eq. accuracy.15
-double moved(const Measured& at_member, const Measured& few, const Measured& own) {
-  return few.value > 0 ? at_member.value * own.value / few.value : std::nan("");
-}
-
 }  // namespace
 
 MemberModel::MemberModel(Belief belief, const std::string& folder, int threads,
@@ -102,30 +96,34 @@ std::vector<double> MemberModel::kept(const std::string& question, std::size_t s
 
 MemberFriction MemberModel::friction(const Design& design, const Conditions& at) {
   const Design there = under_conditions(design, at);
-  const std::vector<double> answer = kept(
-      "friction at the design's level\n" + write_toml(to_table(there)),
-      kNumbers * belief_.members.size(), [&] {
-        if (note_)
-          note_(
-              fmt::format("{}, {}, at {} members", there.title, text(at), belief_.members.size()));
-        const Scene scene = scene_of(there);
-        const Fidelity wanted = fidelity_of(there), least = belief_fidelity(wanted);
-        const ResponsePoint own = evaluate(scene, there.texture, wanted).points.front();
-        const ResponsePoint few =
-            respond(scene, least, solve_patches(scene, there.texture, least)).points.front();
-        std::vector<double> out;
-        for (const Response& r : runs(there)) {
-          const ResponsePoint& p = r.points.front();
-          const bool off = p.knows_undriven() && own.knows_undriven(),
-                     on = r.driven && p.knows_driven() && own.knows_driven();
-          out.push_back(off ? moved(p.friction_off, few.friction_off, own.friction_off)
-                            : std::nan(""));
-          out.push_back(on ? moved(p.friction_on, few.friction_on, own.friction_on) : std::nan(""));
-          out.push_back(share(own.friction_off));
-          out.push_back(share(own.friction_on));
-        }
-        return out;
-      });
+  const std::vector<double> answer =
+      kept("friction at the design's level\n" + write_toml(to_table(there)),
+           kNumbers * belief_.members.size(), [&] {
+             if (note_)
+               note_(fmt::format("{}, {}, at {} members", there.title, text(at),
+                                 belief_.members.size()));
+             const Scene scene = scene_of(there);
+             const Fidelity wanted = fidelity_of(there), least = belief_fidelity(wanted);
+             const ResponsePoint own = evaluate(scene, there.texture, wanted).points.front();
+             const ResponsePoint few =
+                 respond(scene, least, solve_patches(scene, there.texture, least)).points.front();
+             std::vector<double> out;
+             for (const Response& r : runs(there)) {
+               const ResponsePoint& p = r.points.front();
+               // A reading is of a force, which few pixels make too large by tens of percent: it is
+               // as the design's own level has it, moved as the member moves it. Eq. accuracy.15
+               const auto at_member = [&](Measured PointQuantities::*force) {
+                 return moved((own.*force).value, (few.*force).value, (p.*force).value, true);
+               };
+               const bool off = p.knows_undriven() && own.knows_undriven(),
+                          on = r.driven && p.knows_driven() && own.knows_driven();
+               out.push_back(off ? at_member(&PointQuantities::friction_off) : std::nan(""));
+               out.push_back(on ? at_member(&PointQuantities::friction_on) : std::nan(""));
+               out.push_back(share(own.friction_off));
+               out.push_back(share(own.friction_on));
+             }
+             return out;
+           });
   MemberFriction out;
   std::vector<double> off_se, on_se;
   for (std::size_t i = 0; i < answer.size(); i += kNumbers) {

@@ -11,8 +11,9 @@ namespace papilla::report {
 
 // Texts carry what is behind their numbers (stated_number.h).
 
-// "It is the best of 9 in the worst modulation with probability 71 %, ...; under hypothesis
-// "emission" design 02 is." Of the design that the decision is for; "" without a decision.
+// "How sure: it is the best of 9 in the worst modulation with probability 71 %, ...", "What would
+// overturn it: ...", "To be surer, measure ...": a line each. Of the design that the decision is
+// for; none without a decision.
 std::vector<std::string> decision_grounds(const ResultFiles& files);
 // "## Which of them, by belief" of summary.md: each design's probabilities, and what would overturn
 // the choice; why there is none, where there is none.

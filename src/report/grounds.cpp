@@ -18,7 +18,6 @@ namespace {
 constexpr const char* kOfALook = "by theory, without scatter";
 constexpr const char* kOfACheck =
     "one of the checks: the bar is that of the design, other skins in it";
-constexpr const char* kOfARoom = "read off steps of one number at a time";
 constexpr const char* kLowest = "the lowest over fingers and humidity: no bar is stated for it";
 
 // "15 to 75 %"
@@ -129,10 +128,10 @@ std::string model_text(const ResultFiles& f) {
       f.problem.has_belief() ? "Choices of the model, each alone" : "In no ±: choices of the model";
   if (!s.other_skin || !place)
     return out + " (`papilla explain` names them), which were not tried on it.";
-  std::vector<std::string> names, ranges;
+  std::vector<std::string> ranges;
   std::vector<std::vector<double>> values;
+  const std::size_t tried = s.variants.size() - *s.other_skin - 1;
   for (std::size_t v = *s.other_skin + 1; v < s.variants.size(); ++v) {
-    names.push_back(s.variants[v].name);
     if (!s.variants[v].values[*place].empty()) values.push_back(s.variants[v].values[*place]);
   }
   for (std::size_t k = 0; k < f.problem.objectives().size() && !values.empty(); ++k) {
@@ -146,8 +145,8 @@ std::string model_text(const ResultFiles& f) {
   }
   return fmt::format(
       "{} ({} of them, on finger \"{}\"; \"Does the order hold?\" has each): over these {}.", out,
-      stated(count_number("choices of the model that were tried", names.size(), {Stage::Stability}),
-             fmt::format("{}", names.size())),
+      stated(count_number("choices of the model that were tried", tried, {Stage::Stability}),
+             fmt::format("{}", tried)),
       f.problem.tasks().front().name,
       ranges.empty() ? "it has no value" : "it has " + join_names(ranges));
 }
@@ -211,7 +210,7 @@ std::string room_text(const ResultFiles& f) {
           drift->most > 0
               ? "at most " +
                     stated(bare_number(fmt::format("room {} of {}", way, row.path),
-                                       drift->most / unit, row.unit, kOfARoom,
+                                       drift->most / unit, row.unit, kOfAStep,
                                        {Stage::Confirm, Stage::Rounding, Stage::Sensitivity}),
                            in_unit(drift->most, row.unit, 2))
               : std::string("not at all"),

@@ -24,6 +24,7 @@ StatedNumber difference_number(const ResultFiles& files, const std::string& word
 // Why a number has no bar.
 constexpr const char* kChosen = "chosen: it is exact";
 constexpr const char* kAsked = "an input";
+constexpr const char* kOfAStep = "read off steps of one number at a time";
 // A number that has no bar, and why.
 StatedNumber bare_number(const std::string& words, double value, const std::string& unit,
                          const std::string& no_bar, std::vector<Stage> rests_on);

@@ -22,8 +22,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kOfAStep = "read off steps of one number at a time";
-
 Json drift_json(const std::optional<Drift>& drift, double unit) {
   return drift && drift->judged() ? Json(drift->most / unit) : Json();
 }

@@ -274,7 +274,7 @@ function select(name) {
 
 // ---- the page ----
 const best = data.designs.best, flat = best.flat;
-// Between backticks stand commands; what a ground is about stands before its first colon.
+// Between backticks stand commands; the grounds of a decision begin with what they are about.
 function words(place, text) {
   text.split('`').forEach((part, i) => {
     const piece = i % 2 ? document.createElement('code') : document.createTextNode('');
