@@ -2,22 +2,31 @@
 // and find an error of the model; by chosen experiments, by D-optimal ones and by a grid. Markdown
 // on standard output.
 //   lab_bench FOLDER [MEMBERS TRUTHS]
-//                    FOLDER keeps what the model has answered; MEMBERS of each hypothesis, drawn
-//                    about the reference finger; TRUTHS are drawn anew and evaluated on other skins
+//                    FOLDER keeps what the model has answered; MEMBERS are drawn about the
+//                    reference finger, TRUTHS anew and evaluated each by itself at the designs' own
+//                    level, on other skins
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <numeric>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/random.h"
 #include "bench/drawn_belief.h"
+#include "config/writer.h"
+#include "estimate/belief.h"
+#include "forward/forward.h"
 #include "lab/planning.h"
 #include "numerics/statistics.h"
+#include "optim/unfinished.h"
 
 using namespace papilla::tests;
 
@@ -42,29 +51,66 @@ Belief drawn(const Finger& finger, int members, const char* purpose) {
   return out.take();
 }
 
-struct World {
-  LabFile file;
-  std::vector<LabDesign> designs, truth_designs;
-  std::vector<Experiment> experiments;
-  std::unique_ptr<MemberModel> model, truth_model;
-  std::unique_ptr<ResponseTable> table, truth_table;
-  std::vector<std::vector<double>> worth, truth_worth;  // [design][member]
+// What a reading would be of, without scatter [N].
+struct Friction {
+  double off = 0, on = 0;
 };
 
-// The worst modulation over the humidities at the highest voltage.
-std::vector<std::vector<double>> worth_of(const World& w, const ResponseTable& table,
-                                          std::size_t members) {
-  std::vector<std::vector<double>> out(w.designs.size(), std::vector<double>(members, 1e9));
-  for (const Experiment& e : w.experiments) {
-    if (e.at.voltage != w.file.conditions.voltage.back()) continue;
-    const MeasurableCell& cell = table.cell(e);
-    for (std::size_t m = 0; m < members; ++m) {
-      const double on = cell.on ? table.responses()[*cell.on][m] : 0,
-                   off = cell.off ? table.responses()[*cell.off][m] : 0;
-      out[e.design][m] = std::min(out[e.design][m], std::exp(on - off) - 1);
-    }
+struct World {
+  LabFile file;
+  std::vector<LabDesign> designs;
+  std::vector<Experiment> experiments;
+  std::unique_ptr<MemberModel> model;
+  std::unique_ptr<ResponseTable> table;
+  std::vector<MemberNumbers> worth;  // of the designs
+  // Truths, [experiment][truth] and [design][truth].
+  std::vector<std::vector<Friction>> truth;
+  std::vector<std::vector<double>> truth_worth;
+
+  std::size_t index(const Experiment& e) const {
+    return static_cast<std::size_t>(std::find(experiments.begin(), experiments.end(), e) -
+                                    experiments.begin());
   }
-  return out;
+};
+
+// Of each truth, off and on.
+std::string frictions_text(const Design& design, const Belief& truths) {
+  Fidelity fidelity = fidelity_of(design);
+  fidelity.threads = 1;
+  const std::vector<Scene> scenes = belief_scenes(truths, scene_of(design));
+  std::vector<std::string> out(scenes.size());
+  parallel_for(
+      static_cast<int>(scenes.size()),
+      [&](int k) {
+        const auto t = static_cast<std::size_t>(k);
+        const ResponsePoint p = evaluate(scenes[t], design.texture, fidelity).points.front();
+        out[t] = fmt::format("{:.17g} {:.17g} ", p.friction_off.value, p.friction_on.value);
+      },
+      0);
+  return std::accumulate(out.begin(), out.end(), std::string());
+}
+
+// Each truth by an evaluation of its own: nothing of how a lab moves members is in it.
+void find_truths(World& w, const Belief& truths, const std::string& folder) {
+  Unfinished kept(folder, "truths of lab_bench " PAPILLA_VERSION "\n" + belief_text(truths));
+  const std::size_t count = truths.members.size();
+  w.truth.assign(w.experiments.size(), std::vector<Friction>(count));
+  w.truth_worth.assign(w.designs.size(), std::vector<double>(count, 1e9));
+  for (std::size_t i = 0; i < w.experiments.size(); ++i) {
+    const Experiment& e = w.experiments[i];
+    Design design = under_conditions(w.designs[e.design].design, e.at);
+    design.accuracy.seed = kTruthSeed;
+    const std::string key = text_hash(write_toml(to_table(design)));
+    if (!kept.find(key)) kept.keep(key, frictions_text(design, truths));
+    std::istringstream known(*kept.find(key));
+    for (Friction& f : w.truth[i]) known >> f.off >> f.on;
+    if (!known) throw InputError(kept.file() + ": unreadable");
+    fmt::print(stderr, "truths, {} of {}\n", i + 1, w.experiments.size());
+    if (e.at.voltage != w.file.conditions.voltage.back()) continue;
+    for (std::size_t t = 0; t < count; ++t)
+      w.truth_worth[e.design][t] =
+          std::min(w.truth_worth[e.design][t], w.truth[i][t].on / w.truth[i][t].off - 1);
+  }
 }
 
 World make_world(const std::string& folder, int members, int truths) {
@@ -75,11 +121,11 @@ World make_world(const std::string& folder, int members, int truths) {
   w.file.worth = "worst(modulation)";
   for (const std::string& name : kDesigns) {
     Design d = read_design(find_design("m3_samples/" + name + ".toml"));
-    d.accuracy.level = AccuracyLevel::Draft;
+    d.environment = {w.file.conditions.humidity, {}};
+    d.finger.load = w.file.conditions.load.front();
+    d.drive.amplitude = w.file.conditions.voltage.back();
     w.designs.push_back({name, d, true});
     w.file.designs.push_back({name, name + ".toml", true});
-    d.accuracy.seed = kTruthSeed;
-    w.truth_designs.push_back({name, d, true});
   }
   for (std::size_t d = 0; d < w.designs.size(); ++d) {
     for (const double v : w.file.conditions.voltage) {
@@ -90,14 +136,11 @@ World make_world(const std::string& folder, int members, int truths) {
   const Finger& finger = w.designs.front().design.finger;
   const auto note = [](const std::string& text) { fmt::print(stderr, "{}\n", text); };
   w.model = std::make_unique<MemberModel>(drawn(finger, members, "lab members"), folder, 0, note);
-  w.truth_model =
-      std::make_unique<MemberModel>(drawn(finger, truths, "lab truths"), folder, 0, note);
   w.table = std::make_unique<ResponseTable>(w.designs, *w.model);
-  w.truth_table = std::make_unique<ResponseTable>(w.truth_designs, *w.truth_model);
   w.table->lay(w.experiments);
-  w.truth_table->lay(w.experiments);
-  w.worth = worth_of(w, *w.table, static_cast<std::size_t>(members));
-  w.truth_worth = worth_of(w, *w.truth_table, static_cast<std::size_t>(truths));
+  const MetricExpression metric = parse_own_metric(w.file.worth);
+  for (const LabDesign& d : w.designs) w.worth.push_back(w.model->worth(d.design, metric));
+  find_truths(w, drawn(finger, truths, "lab truths"), folder);
   return w;
 }
 
@@ -124,15 +167,14 @@ class Bench {
     r.experiment = e;
     r.finger = "1";
     r.day = fmt::format("{}", day);
-    const MeasurableCell& cell = world_.truth_table->cell(e);
-    const auto read = [&](std::size_t row, bool on) {
+    const Friction& is = world_.truth[world_.index(e)][truth_];
+    const auto read = [&](double friction, bool on) {
       const double wrong = where_ && where_(e, on) ? planted_ : 0;
-      return std::exp(world_.truth_table->responses()[row][truth_] + finger_ + day_ +
-                      design_[e.design] + wrong +
-                      world_.file.instrument.repeatability * random_.normal());
+      return friction * std::exp(finger_ + day_ + design_[e.design] + wrong +
+                                 world_.file.instrument.repeatability * random_.normal());
     };
-    if (cell.off) r.off = read(*cell.off, false);
-    if (cell.on) r.on = read(*cell.on, true);
+    r.off = read(is.off, false);
+    r.on = read(is.on, true);
     return r;
   }
 
@@ -147,6 +189,29 @@ class Bench {
 
 std::unique_ptr<Standing> stand(const World& w, const std::vector<FrictionReading>& readings) {
   return standing_of(w.model->belief(), w.file, w.designs, *w.table, readings, w.worth, {});
+}
+
+// How far a lab's members, moved, are from evaluations of them: of the truths' own belief, on the
+// designs' skins.
+void judge_moves(const World& w, const Belief& truths, const std::string& folder) {
+  MemberModel model(truths, folder, 0);
+  double off = 0, ratio = 0, move = 0, n = 0;
+  for (std::size_t i = 0; i < w.experiments.size(); ++i) {
+    const Experiment& e = w.experiments[i];
+    const MemberFriction f = model.friction(w.designs[e.design].design, e.at);
+    for (std::size_t t = 0; t < truths.members.size(); ++t) {
+      const Friction& is = w.truth[i][t];
+      off += square(std::log(f.off.at[t] / is.off));
+      ratio += square(std::log(f.on.at[t] / f.off.at[t] * is.off / is.on));
+      move += square(std::log(is.on / is.off / (f.on.own / f.off.own)));
+      ++n;
+    }
+  }
+  fmt::print(
+      "\nMembers moved, against an evaluation of each on other skins (rms of {:.0f}): friction "
+      "{:.1f} "
+      "%, ratio of on and off {:.1f} %; members move that ratio by {:.1f} %.\n",
+      n, 100 * std::sqrt(off / n), 100 * std::sqrt(ratio / n), 100 * std::sqrt(move / n));
 }
 
 // How widely belief spreads the differences that decide: the root of the mean square of the 95 %
@@ -171,7 +236,8 @@ enum class Plan { Decision, Hypotheses, DOptimal, Grid };
 // After some touches.
 struct Mark {
   int touches = 0;
-  double seconds = 0, width = 0, loss = 0, p_right = 0;
+  double seconds = 0, width = 0, p_right = 0;
+  double loss = 0, expected_loss = 0;  // of the choice, shares: by the truth, by the lab itself
   bool right = false;
 };
 
@@ -230,7 +296,8 @@ std::vector<Mark> run(const World& w, std::size_t truth, Plan plan) {
     const std::size_t right = truth % kHypotheses.size();
     const auto heaviest = std::max_element(s->p_hypothesis.begin(), s->p_hypothesis.end());
     out.push_back({static_cast<int>(readings.size()), seconds, width(*s, first, p_first),
-                   (best - w.truth_worth[s->best][truth]) / best, s->p_hypothesis[right],
+                   s->p_hypothesis[right], (best - w.truth_worth[s->best][truth]) / best,
+                   s->prospects[s->best].regret / s->best_worth,
                    static_cast<std::size_t>(heaviest - s->p_hypothesis.begin()) == right});
   };
   mark();
@@ -290,8 +357,8 @@ void judge_plans(const World& w, std::size_t truths) {
       "| plan | truths whose interval was halved within 30 touches | median touches to half | "
       "median "
       "hours to half | heaviest hypothesis is right after 30 touches | mean loss of the choice: "
-      "before, after 30 touches | touches until it stays under 2 % "
-      "|\n|---|---|---|---|---|---|---|\n");
+      "before, after 30 touches | after 30, as the lab expects | touches until it stays under 2 % "
+      "|\n|---|---|---|---|---|---|---|---|\n");
   for (const auto& [name, plan] : {std::pair("`--for decision`", Plan::Decision),
                                    std::pair("`--for hypotheses`", Plan::Hypotheses),
                                    std::pair("`--for parameters` (D-optimal)", Plan::DOptimal),
@@ -299,7 +366,7 @@ void judge_plans(const World& w, std::size_t truths) {
     std::vector<double> touches, hours;
     std::vector<std::vector<Mark>> all;
     int within = 0, right = 0;
-    double before = 0, after = 0;
+    double before = 0, after = 0, expected = 0;
     for (std::size_t t = 0; t < truths; ++t) {
       const std::vector<Mark>& marks = all.emplace_back(run(w, t, plan));
       const Halved h = halved(marks);
@@ -311,6 +378,7 @@ void judge_plans(const World& w, std::size_t truths) {
       right += marks[k].right;
       before += marks.front().loss / static_cast<double>(truths);
       after += marks[k].loss / static_cast<double>(truths);
+      expected += marks[k].expected_loss / static_cast<double>(truths);
       fmt::print(stderr,
                  "{} {}: half at {:.1f} touches {:.1f} h, p right {:.3f}, loss {:.3f} -> "
                  "{:.3f}\n",
@@ -319,8 +387,9 @@ void judge_plans(const World& w, std::size_t truths) {
     }
     const double small = touches_to_small_loss(all);
     fmt::print(
-        "| {} | {} of {} | {:.0f} | {:.1f} | {} of {} | {:.1f} %, {:.1f} % | {} |\n", name, within,
-        truths, median(touches), median(hours), right, truths, 100 * before, 100 * after,
+        "| {} | {} of {} | {:.0f} | {:.1f} | {} of {} | {:.1f} %, {:.1f} % | {:.1f} % | {} |\n",
+        name, within, truths, median(touches), median(hours), right, truths, 100 * before,
+        100 * after, 100 * expected,
         std::isinf(small) ? fmt::format("not within {}", kMost) : fmt::format("{:.0f}", small));
   }
 }
@@ -329,8 +398,8 @@ void judge_plans(const World& w, std::size_t truths) {
 // at one voltage on a day and at the other on the next.
 void judge_discrepancy(const World& w, std::size_t truths) {
   fmt::print(
-      "\n| model error planted | found | at its place | said where there is none |\n"
-      "|---|---|---|---|\n");
+      "\n| model error planted | found (members explain with less than 50 %) | at its place |\n"
+      "|---|---|---|\n");
   struct Planted {
     const char* name;
     const char* where;
@@ -363,9 +432,8 @@ void judge_discrepancy(const World& w, std::size_t truths) {
       fmt::print(stderr, "{} truth {}: none {:.3f}, {} {:.2f} {:+.3f}\n", p.name, t, d.none,
                  d.found.front().where, d.found.front().probability, d.found.front().shift);
     }
-    fmt::print("| {} | {} of {} | {} | {} |\n", p.name, p.where[0] ? fmt::format("{}", found) : "",
-               truths, p.where[0] ? fmt::format("{}", located) : "",
-               p.where[0] ? "" : fmt::format("{}", found));
+    fmt::print("| {} | {} of {} | {} |\n", p.name, found, truths,
+               p.where[0] ? fmt::format("{}", located) : "");
   }
 }
 
@@ -382,6 +450,7 @@ int main(int argc, char** argv) {
     const World w = make_world(argv[1], members, truths);
     judge_plans(w, static_cast<std::size_t>(truths));
     judge_discrepancy(w, static_cast<std::size_t>(truths));
+    judge_moves(w, drawn(w.designs.front().design.finger, truths, "lab truths"), argv[1]);
   } catch (const InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 2;

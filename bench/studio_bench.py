@@ -1,8 +1,9 @@
 """The studio measured: studio_bench.py PROGRAM latency|bands OUT.csv [COUNT].
 
-latency: from the event of a slider to the drawn curve, in headless Chromium on this machine; 300 events over flat glass, holes and a particle film, without
-and as many with a search running, each once the design at hand was refined. Beside it the processor time that the studio itself spends on an event, which other work
-on the machine does not change. bands: positions of sliders drawn by a fixed seed, the first answer's band against the refined value at each humidity.
+latency: from the event of a slider to the drawn curve, in headless Chromium on this machine; 300 events over flat glass, holes, a particle film and holes
+under a film, without and as many with a search running, each once the design at hand was refined. Beside it the processor time that the studio itself spends
+on an event, which other work on the machine does not change. bands: positions of sliders drawn by a fixed seed, the first answer's band against the refined
+value at each humidity.
 """
 import json
 import math
@@ -30,12 +31,14 @@ KEYS = {
     "flat": ["drive.amplitude", "surface.contact_angle", "finger.load"],
     "holes": ["drive.amplitude", "surface.contact_angle", "finger.load", "texture.depth"],
     "particles": ["drive.amplitude", "surface.contact_angle", "finger.load", "texture.radius"],
+    "film": ["drive.amplitude", "surface.contact_angle", "finger.load", "texture.depth"],
 }
+FILES = {"flat": "m3_samples/flat.toml", "holes": "m3_samples/a3h600.toml", "film": "m3_glass/directional.toml"}
 
 
 def design(folder, kind):
     if kind != "particles":
-        return os.path.join(TREE, "designs", "m3_samples", {"flat": "flat.toml", "holes": "a3h600.toml"}[kind])
+        return os.path.join(TREE, "designs", FILES[kind])
     path = os.path.join(folder, "particles.toml")
     with open(path, "w") as file:
         file.write(PARTICLES)

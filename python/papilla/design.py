@@ -201,12 +201,12 @@ class Design:
         shutil.move(partial, name)
 
     def heights(self, pixels: int = 512) -> Heights:
-        """A patch of whole periods, ``pixels`` along x (8 to 65536).
+        """A patch of whole periods, ``pixels`` along x (8 to 16384).
 
         A design from an array gives z - z.max() to the last bit where ``pixels`` is its width, an even number.
         Raises InputError.
         """
-        made = self._inside.heights(v.whole(pixels, "pixels", 8, 65536))
+        made = self._inside.heights(v.whole(pixels, "pixels", 8, 16384))
         return Heights(made.z, made.dx, made.dy)
 
     def look(self) -> Look:

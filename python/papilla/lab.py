@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import json
+import os
+import re
+import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Union
 
 from papilla import _native, values as v
-from papilla.errors import InputError, Problem
+from papilla.design import Design
+from papilla.errors import InputError, Problem, wrong
 from papilla.progress import Progress, shown
+from papilla.study import Run
 from papilla.values import Path
+
+Source = Union[Path, Design, Run]
 
 __all__ = ["Batch", "Experiment", "Lab", "Told"]
 
@@ -61,6 +68,7 @@ class Batch:
             Experiment(e["id"], e["design"], e["field"], e["conditions"]["load"], e["conditions"]["relative_humidity"],
                        e["conditions"]["voltage"], e["conditions"]["frequency"], e["conditions"]["state"], e["repeats"],
                        e["F_off"], e["F_on"]) for e in plan["experiments"]]
+        """In the order in which they gain most."""
         self._document = document
 
     def to_dict(self) -> dict[str, Any]:
@@ -113,22 +121,24 @@ class Lab:
         self.state()
 
     @classmethod
-    def open(cls, sources: Path | Sequence[Path], folder: Path, *, belief: Path = "", worth: str = "", load: str = "",
+    def open(cls, sources: Source | Sequence[Source], folder: Path, *, belief: Path = "", worth: str = "", load: str = "",
              humidity: str = "", voltage: str = "", frequency: str = "", states: str = "", purpose: str = "",
              count: int = 10, seconds: float = 0, finger: str = "1", date: str = "", threads: int = 0,
              progress: Progress = None) -> Lab:
         """A new lab with its first batch: ``papilla next``.
 
-        sources: a folder of results, a wafer's manifest.csv, designs, a calibration. load, humidity, voltage, frequency,
+        sources: a folder of results or a Run, a wafer's manifest.csv, designs or their files, a calibration. load, humidity, voltage, frequency,
         states: what can be set, lists as "15 %,75 %"; empty: the designs' own. purpose: "decision", "hypotheses",
         "parameters". count: touches, at most. seconds: of work, at most. Raises InputError, KeyboardInterrupt.
         """
         conditions = [v.text(t, n) for t, n in ((load, "load"), (humidity, "humidity"), (voltage, "voltage"),
                                                 (frequency, "frequency"), (states, "states"))]
-        found, stop, table, document = _native.next_experiments(
-            v.paths(sources, "sources"), v.path(folder, "folder"), v.text(purpose, "purpose"),
-            v.whole(count, "count", 1, 1000), float(seconds), v.path(belief, "belief"), v.text(worth, "worth"), conditions,
-            v.text(finger, "finger"), "", v.text(date, "date"), v.whole(threads, "threads", 0, 4096), shown(progress, "next"))
+        with tempfile.TemporaryDirectory() as beside:
+            found, stop, table, document = _native.next_experiments(
+                _paths(sources, beside), v.path(folder, "folder"), v.text(purpose, "purpose"),
+                v.whole(count, "count", 1, 1000), float(seconds), v.path(belief, "belief"), v.text(worth, "worth"),
+                conditions, v.text(finger, "finger"), "", v.text(date, "date"), v.whole(threads, "threads", 0, 4096),
+                shown(progress, "next"))
         lab = cls(found)
         lab.batch = Batch(stop, table, json.loads(document))
         return lab
@@ -176,3 +186,23 @@ class Lab:
 
     def _repr_markdown_(self) -> str:
         return self.page
+
+
+def _paths(sources: Source | Sequence[Source], beside: str) -> list[str]:
+    """Files and folders; a Design is written into the folder ``beside``, from where a lab takes its own copy."""
+    several = [sources] if isinstance(sources, (str, os.PathLike, Design, Run)) else v.items(sources, "sources")
+    out: list[str] = []
+    for i, source in enumerate(several):
+        if isinstance(source, Run):
+            out.append(source.folder)
+        elif isinstance(source, Design):
+            if source._inside.drawn() is not None:
+                raise wrong(f"sources.{i}", "the heights of this design are an array: save it and name its file")
+            name = re.sub(r"[^\w-]+", "_", source.title).strip("_")[:60] or f"design_{i + 1}"
+            place = os.path.join(beside, str(i))
+            os.mkdir(place)
+            out.append(os.path.join(place, name + ".toml"))
+            source.save(out[-1])
+        else:
+            out.append(v.path(source, f"sources.{i}"))
+    return out

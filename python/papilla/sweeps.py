@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Union
 
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     import xarray
 
 __all__ = ["Sweep", "sweep"]
+
+_MOST_POINTS = 100_000  # days of evaluations, and all their responses in memory
 
 Values = Union[Mapping[str, Sequence[Any]], Sequence[Mapping[str, Any]]]
 
@@ -125,11 +128,18 @@ def _points(values: Values) -> tuple[dict[str, list[Any]], list[dict[str, Any]]]
         empty = [key for key, given in axes.items() if not given]
         if not axes or empty:
             raise wrong(empty[0] if empty else "values", "expected one value at least")
+        _limit(math.prod(len(given) for given in axes.values()))
         return axes, [dict(zip(axes, chosen)) for chosen in itertools.product(*axes.values())]
     points = v.items(values, "values")
     if not points:
         raise wrong("values", "expected one point at least")
+    _limit(len(points))
     for i, point in enumerate(points):
         if not isinstance(point, Mapping):
             raise wrong(f"values.{i}", f"expected a dict of keys, got {type(point).__name__}")
     return {}, [dict(point) for point in points]
+
+
+def _limit(points: int) -> None:
+    if points > _MOST_POINTS:
+        raise wrong("values", f"{points} points: expected {_MOST_POINTS} at most")

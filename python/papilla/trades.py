@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import re
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -116,12 +118,37 @@ class Calibration:
         """False: the fitted finger is not to be used."""
         self.warning: str = row["warning"]
         self.parameters: list[FittedParameter] = [FittedParameter(*p) for p in row["parameters"]]
+        """In the order of the file."""
         self.chi2_before: float = row["chi2_before"]
         self.chi2: float = row["chi2"]
         self.degrees_of_freedom: int = row["degrees_of_freedom"]
         self.finger: str = row["finger"]
         """The fitted finger as TOML."""
         self.table: str = row["table"]
+
+    @classmethod
+    def open(cls, folder: Path) -> Calibration:
+        """A fit that was made before, from its folder: of ``calibrate(..., out=folder)`` or ``papilla calibrate``.
+
+        Raises InputError for a folder that is none.
+        """
+        place = os.path.abspath(v.path(folder, "folder"))
+        texts = {}
+        for name in ("fit.json", "fit.md", "finger.toml"):
+            try:
+                with open(os.path.join(place, name), encoding="utf-8") as file:
+                    texts[name] = file.read()
+            except OSError:
+                raise wrong("folder", f"{folder} holds no {name}: expected the folder of a finished fit") from None
+        told = json.loads(texts["fit.json"])
+        finger = texts["finger.toml"]
+        beside = tomllib.loads(finger).get("belief", "")
+        if beside:  # where it can be read from anywhere
+            absolute = json.dumps(os.path.join(place, beside), ensure_ascii=False)
+            finger = re.sub(r'(?m)^(belief\s*=\s*)"[^"]*"', lambda found: found[1] + absolute, finger, count=1)
+        rows = [(p["path"], p["value"], p["se"], p["low"], p["high"], p["data_share"]) for p in told["parameters"]]
+        return cls({**told, "explains_data": not told["warning"], "parameters": rows, "finger": finger,
+                    "table": texts["fit.md"], "json": texts["fit.json"]})
 
     def apply(self, design: Design) -> Design:
         """The design under the fitted finger: all of its own finger is replaced. Raises InputError."""

@@ -93,7 +93,7 @@ def cases(count: int) -> list[Case]:
         return key, lambda: pp.field(**given)
 
     def options() -> Case:
-        key, value = r.choice([("level", "best"), ("level", 3), ("target", 1.5), ("target", "5 m"), ("threads", -1),
+        key, value = r.choice([("level", "best"), ("level", 3), ("target", 1.5), ("target", "5 m"), ("target", 1e-12), ("threads", -1),
                                ("threads", 1.5), ("voltage_for", [0]), ("progress", 3), ("look", "yes")])
         return key, lambda: good.evaluate(**{key: value})
 
@@ -114,6 +114,10 @@ def cases(count: int) -> list[Case]:
 
     def others() -> Case:
         return r.choice([
+            ("size", lambda: good.export("nowhere", size=-1)), ("pixels", lambda: good.heights(65536)),
+            ("values", lambda: pp.sweep(good, {"texture.depth": [1e-7] * 1000, "drive.amplitude": [50] * 1000})),
+            ("relative_humidity", lambda: good.with_({"environment.relative_humidity": list(np.linspace(0, 1, 100_000))})),
+            ("folder", lambda: pp.Calibration.open("no/such")), ("sources.0", lambda: pp.Lab.open([3], "nowhere")),  # type: ignore[list-item]
             ("designs", lambda: pp.rank([good])), ("designs.1", lambda: pp.rank([good, 3])),  # type: ignore[list-item]
             ("metric", lambda: good.sensitivity("mean(nothing)")), ("step", lambda: good.sensitivity(step=2.0)),
             ("texture.with", lambda: good.sensitivity(keys=["texture.with"])), ("pixels", lambda: good.heights(3)),
@@ -129,7 +133,7 @@ def cases(count: int) -> list[Case]:
     return [makers[i % len(makers)]() for i in range(count)]
 
 
-@pytest.mark.parametrize("case", cases(200), ids=lambda case: str(case[0])[-24:])
+@pytest.mark.parametrize("case", cases(300), ids=lambda case: str(case[0])[-24:])
 def test_a_wrong_input_is_an_input_error_that_names_the_key(case: Case) -> None:
     key, call = case
     with pytest.raises(pp.InputError) as caught:

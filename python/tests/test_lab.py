@@ -47,3 +47,14 @@ def test_a_table_counts_once_and_a_wrong_one_not_at_all(lab: pp.Lab, tmp_path: P
     with pytest.raises(pp.InputError, match="are these mN"):
         lab.tell(wrong)
     assert lab.state()["standing"]["readings"] == 1
+
+
+def test_a_lab_takes_designs_and_starts_again_after_a_wrong_word(tmp_path: Path, lab: pp.Lab) -> None:
+    design = pp.Design.load("m3_samples/a3h600.toml").with_({"accuracy.level": "draft", "accuracy.grid": 48, "title": "my holes"})
+    options = {"belief": Path(lab.folder).parent / "belief.toml", "humidity": "35 %", "count": 1}
+    with pytest.raises(pp.InputError, match="nothing is decided"):
+        pp.Lab.open(design, tmp_path / "own", purpose="decision", **options)
+    opened = pp.Lab.open([design], tmp_path / "own", **options)
+    assert opened.batch is not None and opened.batch.experiments[0].design == "my_holes"
+    with pytest.raises(pp.InputError, match="is a lab already"):
+        pp.Lab.open(design, tmp_path / "own", **options)

@@ -24,14 +24,14 @@ Exported export_files(const Design& design, const std::string& folder,
   return across([&] {
     rooms::ExportOptions inside;
     inside.formats = options.formats;
+    if (!(options.size >= 0)) throw wrong("size", "expected a width, or 0 for about 12 um");
     inside.size = options.size;
     inside.pixels = options.pixels;
     if (options.polarity == "white-high" || options.polarity == "white-deep") {
       inside.polarity =
           options.polarity == "white-high" ? Polarity::WhiteHigh : Polarity::WhiteDeep;
     } else if (!options.polarity.empty()) {
-      throw rooms::InputError("polarity: expected white-high or white-deep, got " +
-                              options.polarity);
+      throw wrong("polarity", "expected white-high or white-deep, got " + options.polarity);
     }
     const rooms::Study& study = design.inside().study;
     const Export done = export_with_record(study, inside, folder);

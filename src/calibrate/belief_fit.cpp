@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "base/error.h"
 #include "base/units.h"
 #include "base/watch.h"
+#include "forward/plan.h"
 
 namespace papilla::calibrate {
 namespace {
@@ -68,11 +70,19 @@ class BeliefMaker {
       options.bands = residuals_.bands();
       options.groups = groups();
       if (!own) options.variance_factor = out_.hypotheses.front().posterior.variance_factor;
+      const int an_iteration = 2 * static_cast<int>(calibration.parameters.size()) + 1,
+                most = settings_.starts * settings_.iterations * an_iteration + settings_.samples;
+      const auto begin = std::chrono::steady_clock::now();
       int said = 0;
       const auto answers = [&](std::span<const double> p, std::span<double> r) {
         const std::vector<Estimate> model = residuals_.model(calibration, p);
         Watch::look();
-        if (++said % kSaid == 0) note(fmt::format("{}: evaluation {}", hypothesis.name, said));
+        if (++said % kSaid == 0) {
+          const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+          note(fmt::format("{} ({} of {}): evaluation {}; {} at most to its last", hypothesis.name,
+                           out_.hypotheses.size(), 1 + calibration_.hypotheses.size(), said,
+                           duration(spent.count() / said * std::max(0, most - said))));
+        }
         return residuals_.answers(model, r);
       };
       const std::vector<FitParameter> parameters = fit_parameters(calibration);

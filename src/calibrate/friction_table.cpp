@@ -111,8 +111,13 @@ class FrictionReader {
     d.amplitude = number(row, kAmplitude, 0, 1e5, true);
     d.frequency = number(row, kFrequency, 0, 1e9, d.amplitude == 0);
     d.load = number(row, kLoad, 1e-6, 100, false);
-    d.off = number(row, kOff, 0, 1e3, false);
-    d.off_sd = number(row, kOffSd, 1e-9, 1e3, false);
+    if (row[kOff].empty() && !row[kOn].empty()) {
+      problem("F_off_N", "a row under voltage needs the friction without it too, of the same touch",
+              row.place(kOff));
+    } else {
+      d.off = number(row, kOff, 0, 1e3, false);
+      d.off_sd = number(row, kOffSd, 1e-9, 1e3, false);
+    }
     if (!row[kOn].empty()) {
       d.on = number(row, kOn, 0, 1e3, false);
       d.on_sd = number(row, kOnSd, 1e-9, 1e3, false);

@@ -22,6 +22,7 @@
 #include "fabricate/formats.h"
 #include "fabricate/verify.h"
 #include "geometry/io/layout.h"
+#include "geometry/texture.h"
 #include "search/pick.h"
 
 namespace papilla::cli {
@@ -111,6 +112,11 @@ int export_files(const Context& context, const ExportCommand& command) {
                  ", on the grid of the fab as the build sheet has it; as the search left it: "
                  "--unrounded");
   }
+  if (!facts(study.design.texture).relief.present)
+    context.note(source.design + ": a flat surface, so every height is 0" +
+                 (source.beside.empty() || !command.pick.empty()
+                      ? ""
+                      : "; --pick takes a texture of the front by its number"));
   const ExportOptions options = options_of(command);
   say_scans({study.design});
   const double tolerance = parse_si(command.tolerance, "%");

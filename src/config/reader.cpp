@@ -140,12 +140,14 @@ fs::path canonical(const fs::path& path) {
 }
 
 struct BaseFiles {
-  fs::path home;  // folder of the first file
+  std::vector<fs::path> homes;  // folders of the first file and of those that overrides name
   std::vector<std::string> roots;
   std::vector<fs::path> open;  // chain of files being merged
 
   bool allowed(const fs::path& file) const {
-    if (inside(file, home)) return true;
+    if (std::any_of(homes.begin(), homes.end(),
+                    [&](const fs::path& home) { return inside(file, home); }))
+      return true;
     return std::any_of(roots.begin(), roots.end(),
                        [&](const std::string& root) { return inside(file, canonical(root)); });
   }
@@ -211,9 +213,18 @@ void mark_si(Node& node) {
   for (Node& child : node.children) mark_si(child);
 }
 
+// Of a text that may be a list of thousands of numbers.
+std::string beginning(const std::string& text) {
+  constexpr std::size_t kShown = 200;
+  if (text.size() <= kShown) return text;
+  std::size_t end = kShown;
+  while (end > 0 && (text[end] & 0xC0) == 0x80) --end;  // between letters
+  return text.substr(0, end) + "...";
+}
+
 Override parse_override(const std::string& text) {
   const std::size_t equals = text.find('=');
-  const std::string origin = "--set " + text;
+  const std::string origin = "--set " + beginning(text);  // each value of a list has it
   if (equals == std::string::npos || equals == 0) {
     throw InputError({Problem{origin, 0, 0, "", "expected KEY=VALUE, e.g. drive.amplitude=150V"}});
   }
@@ -287,7 +298,11 @@ Node with_overrides_and_bases(Node root, const std::vector<std::string>& overrid
   };
   for (Override& change : changes) {
     if (!is_base(change)) continue;
-    change.value.place.file = root.place.file;  // beside the main file
+    // Of the working folder, as all that a caller names; else beside the main file.
+    if (const std::string own = find_beside(change.value.text, "", {}); !own.empty() && bases)
+      bases->homes.push_back(canonical(own).parent_path());
+    else
+      change.value.place.file = root.place.file;
     apply(root, change);
   }
   if (bases) bases->resolve(root);
@@ -737,14 +752,14 @@ Document load_document(const std::string& path, const std::vector<std::string>& 
                        const std::vector<std::string>& search_roots) {
   const fs::path file = canonical(path);
   Node root = parse_file_text(read_text(path), path);
-  BaseFiles bases{file.parent_path(), search_roots, {file}};
+  BaseFiles bases{{file.parent_path()}, search_roots, {file}};
   return Document(with_overrides_and_bases(std::move(root), overrides, &bases), search_roots);
 }
 
 Document parse_document(const std::string& text, const std::string& file,
                         const std::vector<std::string>& overrides,
                         const std::vector<std::string>& search_roots) {
-  BaseFiles bases{fs::current_path(), search_roots, {}};
+  BaseFiles bases{{fs::current_path()}, search_roots, {}};
   return Document(with_overrides_and_bases(parse_file_text(text, file), overrides,
                                            search_roots.empty() ? nullptr : &bases),
                   search_roots);

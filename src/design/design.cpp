@@ -21,12 +21,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Each is evaluated and kept: far more than any curve of friction shows.
+constexpr std::size_t kMostHumidities = 1000;
+
 // The mistakes across the fields of one part of a design.
 using Problems = std::vector<DesignProblem>;
 
 void environment_problems(const Environment& air, Problems& out) {
   if (air.relative_humidity.empty()) {
     out.push_back({"environment.relative_humidity", "expected at least one humidity"});
+  }
+  if (air.relative_humidity.size() > kMostHumidities) {
+    out.push_back({"environment.relative_humidity",
+                   fmt::format("{} humidities: expected {} at most", air.relative_humidity.size(),
+                               kMostHumidities)});
   }
   for (std::size_t i = 1; i < air.relative_humidity.size(); ++i) {
     if (air.relative_humidity[i] <= air.relative_humidity[i - 1]) {

@@ -8,12 +8,14 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "base/error.h"
 #include "forward/plan.h"
 #include "metrics/metrics.h"
 
 namespace papilla::estimate {
 namespace {
 
+constexpr double kSmallestTarget = 1e-4;
 constexpr int kSmallestGrid = 64, kFewestSkins = 8;  // of the pilot; no plan has fewer
 constexpr int kBatch = 8;                            // skins that are added at a time, at most
 constexpr int kMostPlans = 5;  // changes of grid or estimator before the run ends unsettled
@@ -271,6 +273,11 @@ Fidelity pilot_fidelity(const TargetOptions& options) {
 
 Response evaluate_to_target(const Scene& scene, const Texture& texture,
                             const TargetOptions& options) {
+  if (!(options.target >= kSmallestTarget))
+    throw InputError({Problem{"", 0, 0, "accuracy.target",
+                              fmt::format("expected {}% at least: grid and method leave more open "
+                                          "at any cost",
+                                          100 * kSmallestTarget)}});
   return TargetRun(scene, texture, options).run();
 }
 

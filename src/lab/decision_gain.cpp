@@ -62,7 +62,6 @@ DecisionGain::DecisionGain(const Ensemble& ensemble, const Kernels& kernels, con
   for (std::size_t d = 0; d < kernels.worth.size(); ++d) {
     double own = kernels.worth_covariance_of(d, d) - 2 * kernels.worth_covariance_of(d, choice_) +
                  kernels.worth_covariance_of(choice_, choice_);
-    own *= square(kernels.width);
     for (std::size_t k = 0; k < sofar.size(); ++k) {
       own -= square(sofar.gain(d, k) - sofar.gain(choice_, k));
       for (std::size_t m = 0; m < weights.size(); ++m)

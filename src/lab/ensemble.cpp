@@ -73,6 +73,11 @@ double dimensions(const Rows& moves) {
 
 }  // namespace
 
+double covariance(const Sampling& a, const Sampling& b) {
+  const bool common = a.skins == b.skins && a.deviations.size() == b.deviations.size();
+  return common ? dot(a.deviations, b.deviations) : 0;
+}
+
 std::vector<double> weights_by_hypothesis(const Ensemble& e, const std::vector<double>& weights) {
   std::vector<double> out(e.hypotheses.size(), 0);
   for (std::size_t m = 0; m < weights.size(); ++m) out[e.hypothesis[m]] += weights[m];
@@ -80,23 +85,31 @@ std::vector<double> weights_by_hypothesis(const Ensemble& e, const std::vector<d
 }
 
 double Kernels::covariance(std::size_t row, std::size_t other) const {
-  return dot(response_moves[row], response_moves[other]);
+  return square(width) * dot(response_moves[row], response_moves[other]) +
+         lab::covariance(response_sampling[row], response_sampling[other]);
 }
 
 double Kernels::worth_covariance(std::size_t design, std::size_t row) const {
-  return dot(worth_moves[design], response_moves[row]);
+  return square(width) * dot(worth_moves[design], response_moves[row]) +
+         lab::covariance(worth_sampling[design], response_sampling[row]);
 }
 
 double Kernels::worth_covariance_of(std::size_t design, std::size_t other) const {
-  return dot(worth_moves[design], worth_moves[other]);
+  return square(width) * dot(worth_moves[design], worth_moves[other]) +
+         lab::covariance(worth_sampling[design], worth_sampling[other]);
 }
 
 Kernels kernels_of(const Ensemble& e) {
   PAPILLA_CHECK(!e.weights.empty() && e.hypothesis.size() == e.weights.size(), "members");
+  PAPILLA_CHECK(
+      e.response_sampling.size() == e.responses.size() && e.worth_sampling.size() == e.worth.size(),
+      "what skins leave open of every number");
   const Rows responses = deviations(e, e.responses), worth = deviations(e, e.worth);
   Kernels out;
   out.response_moves = rooted(e, responses);
   out.worth_moves = rooted(e, worth);
+  out.response_sampling = e.response_sampling;
+  out.worth_sampling = e.worth_sampling;
   // Silverman 1986, Eq. 4.14, of the effective number of members.
   const double d = dimensions(out.response_moves);
   const double width = std::pow(4 / ((d + 2) * effective_number(e.weights)), 1 / (d + 4));

@@ -10,16 +10,25 @@
 
 namespace papilla::lab {
 
+// What the model's own few skins leave open of a number, the same at all members: deviations that
+// sum by squares to its variance, one of each skin. Numbers of the same skins vary together, so
+// the ratio of friction on and off is known better than either.
+struct Sampling {
+  std::string skins;  // which: numbers of other skins are independent
+  std::vector<double> deviations;
+};
+double covariance(const Sampling& a, const Sampling& b);
+
 struct Ensemble {
   std::vector<double> weights;          // of the members, all 1
   std::vector<std::size_t> hypothesis;  // of each member
   std::vector<std::string> hypotheses;  // their names
   // [row][member]: logarithm of a friction [N].
   std::vector<std::vector<double>> responses;
-  // [row]: standard deviation of it by the model's own few skins, common to all members.
-  std::vector<double> numerical;
+  std::vector<Sampling> response_sampling;  // [row]
   // [design][member]: higher is better.
   std::vector<std::vector<double>> worth;
+  std::vector<Sampling> worth_sampling;  // [design]
 
   std::size_t members() const { return weights.size(); }
 };
@@ -37,7 +46,10 @@ struct Kernels {
   // rows is the sum of products.
   std::vector<std::vector<double>> response_moves, worth_moves;
 
-  // Within the hypotheses, of all members.
+  std::vector<Sampling> response_sampling, worth_sampling;
+
+  // What a member leaves open of two rows, of the worth of a design and a row, of the worth of two
+  // designs: by its kernel and by the model's few skins.
   double covariance(std::size_t row, std::size_t other) const;
   double worth_covariance(std::size_t design, std::size_t row) const;
   double worth_covariance_of(std::size_t design, std::size_t other) const;

@@ -52,8 +52,14 @@ bool is_lab(const std::string& folder) {
          std::filesystem::is_regular_file(folder + "/" + kLabFile);
 }
 
+bool has_begun(const std::string& folder) {
+  if (!is_lab(folder)) return false;
+  const std::string journal = Folder(folder).read(kJournalFile);
+  return journal.find('\n') + 1 < journal.size();  // anything behind its header
+}
+
 void open_lab(const std::string& folder, const Opening& opening) {
-  if (is_lab(folder))
+  if (has_begun(folder))
     throw InputError(folder + ": is a lab already; name it alone to go on with it");
   const Folder place = Folder::made(folder);
   const SoleWriter sole(place, kWho);
@@ -160,7 +166,7 @@ std::vector<Experiment> Lab::candidates() const {
   return out;
 }
 
-const std::vector<std::vector<double>>& Lab::worth() {
+const std::vector<MemberNumbers>& Lab::worth() {
   if (!worth_.empty() || file_.worth.empty()) return worth_;
   if (!file_.worth_file.empty()) {
     const RunWorth run = read_run_worth(folder_.read(file_.worth_file), file_.worth_file);
@@ -169,7 +175,7 @@ const std::vector<std::vector<double>>& Lab::worth() {
     for (const LabDesign& d : designs_) {
       const auto at = std::find(run.designs.begin(), run.designs.end(), d.name);
       if (!d.choice || at == run.designs.end()) continue;
-      worth_.push_back(run.worth[static_cast<std::size_t>(at - run.designs.begin())]);
+      worth_.push_back({run.worth[static_cast<std::size_t>(at - run.designs.begin())], 0, {}});
       kept_.push_back(run.kept[static_cast<std::size_t>(at - run.designs.begin())]);
     }
     return worth_;
@@ -187,7 +193,7 @@ void Lab::stand() {
   const std::vector<FrictionReading> told = readings();
   for (const FrictionReading& r : told) all.push_back(r.experiment);
   table_->lay(all);
-  const std::vector<std::vector<double>>& of_designs = worth();
+  const std::vector<MemberNumbers>& of_designs = worth();
   standing_ = standing_of(belief(), file_, designs_, *table_, told, of_designs, kept_);
 }
 

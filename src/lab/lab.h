@@ -37,6 +37,8 @@ struct Opening {
 // where the folder is a lab already.
 void open_lab(const std::string& folder, const Opening& opening);
 bool is_lab(const std::string& folder);
+// A plan or a reading is in it: one whose first plan failed can be opened anew.
+bool has_begun(const std::string& folder);
 
 struct NextOptions {
   std::optional<Aim> aim;  // nothing: the decision where there is one, else hypotheses, parameters
@@ -88,7 +90,7 @@ class Lab {
 
  private:
   std::vector<Experiment> candidates() const;
-  const std::vector<std::vector<double>>& worth();
+  const std::vector<MemberNumbers>& worth();
   void stand();
   DecisionRecord decision(const std::string& date);
   void keep(JournalEntry entry);
@@ -102,7 +104,7 @@ class Lab {
   std::unique_ptr<MemberModel> model_;
   std::unique_ptr<Journal> journal_;
   std::vector<JournalEntry> entries_;
-  std::vector<std::vector<double>> worth_;
+  std::vector<MemberNumbers> worth_;
   std::vector<std::vector<bool>> kept_;
   std::unique_ptr<ResponseTable> table_;
   std::unique_ptr<Standing> standing_;

@@ -102,20 +102,29 @@ class Matcher {
                                             : fmt::format(", is it `{}`?", close)));
   }
 
+  // The frequency of the design's own drive is said by 0, as in plans that know no other.
+  double frequency_of(double is, std::size_t design) const {
+    const bool own =
+        design < context_.designs.size() && is == context_.designs[design].design.drive.frequency;
+    return own ? 0 : is;
+  }
+
   // Conditions of a row over those that are meant.
-  Conditions over(const MeasuredRow& row, Conditions at) const {
+  Conditions over(const MeasuredRow& row, Conditions at, std::size_t design) const {
     at.load = row.load.value_or(at.load);
     at.relative_humidity = row.relative_humidity.value_or(at.relative_humidity);
     at.voltage = row.voltage.value_or(at.voltage);
-    at.frequency = row.frequency.value_or(at.frequency);
+    if (row.frequency)
+      at.frequency = at.frequency == 0 ? frequency_of(*row.frequency, design) : *row.frequency;
     at.state = row.state.value_or(at.state);
     if (!at.driven()) at.frequency = 0;
     return at;
   }
 
   // As it was planned where the row is near it.
-  Conditions taken(const MeasuredRow& row, const Conditions& planned) {
-    const Conditions is = over(row, planned);
+  Conditions taken(const MeasuredRow& row, const Experiment& wanted) {
+    const Conditions& planned = wanted.at;
+    const Conditions is = over(row, planned, wanted.design);
     if (!near(is, planned)) return snapped_to_candidates(is);
     as_planned_ += !(is == planned);
     return planned;
@@ -136,7 +145,7 @@ class Matcher {
       if (p.id != id) continue;
       out.id = id;
       out.field = p.field;
-      out.experiment = {p.experiment.design, taken(row, p.experiment.at)};
+      out.experiment = {p.experiment.design, taken(row, p.experiment)};
       if (!row.field.empty() && !p.field.empty() && row.field != p.field)
         problem("field",
                 fmt::format("{} stands in field {} of the plan, not {}", id, p.field, row.field));
@@ -156,7 +165,7 @@ class Matcher {
     out.field = field;
     out.experiment.design = design_index(here.front()->design);
     for (const FieldEntry* f : here) {
-      const Conditions planned = conditions_of(*f), is = over(row, planned);
+      const Conditions planned = conditions_of(*f), is = over(row, planned, out.experiment.design);
       if (!near(is, planned)) continue;
       as_planned_ += !(is == planned);
       out.experiment.at = planned;
@@ -166,7 +175,8 @@ class Matcher {
       return problem("field", fmt::format("{} is to be measured under {} conditions: say which "
                                           "(load, humidity, voltage)",
                                           field, here.size()));
-    out.experiment.at = snapped_to_candidates(over(row, conditions_of(*here.front())));
+    out.experiment.at =
+        snapped_to_candidates(over(row, conditions_of(*here.front()), out.experiment.design));
   }
 
   static bool says_conditions(const MeasuredRow& row) {
@@ -199,7 +209,10 @@ class Matcher {
     at.relative_humidity = needed(row.relative_humidity, c.humidity, "humidity");
     at.voltage = needed(row.voltage, c.voltage, "voltage");
     if (at.driven())
-      at.frequency = row.frequency.value_or(c.frequency.size() == 1 ? c.frequency.front() : 0);
+      at.frequency =
+          row.frequency && c.frequency.empty()
+              ? frequency_of(*row.frequency, index)
+              : row.frequency.value_or(c.frequency.size() == 1 ? c.frequency.front() : 0);
     at.state = row.state.value_or(FingerState::Clean);
     out.experiment = {index, snapped_to_candidates(at)};
   }

@@ -15,8 +15,6 @@
 namespace papilla::lab {
 namespace {
 
-constexpr std::size_t kNumbers = 4;  // of a member: off, on, and their errors
-
 // Hexadecimal, so that a number reads back to its last bit.
 std::string written(const std::vector<double>& numbers) {
   std::string out;
@@ -34,7 +32,84 @@ std::vector<double> read_numbers(const std::string& text) {
   }
 }
 
-double share(const Measured& m) { return m.value > 0 ? m.parts.sampling / m.value : 0; }
+// More than `belief_fidelity` has: a reading parts designs by a few percent, as much as moves on
+// two skins scatter (docs/measured/lab.md).
+constexpr int kMemberSkins = 8;
+
+// The design by its own finger at its own level, by its own finger as members are run, and by each
+// member.
+struct DesignRuns {
+  Response own, few;
+  std::vector<Response> members;
+  std::vector<double> weights;
+};
+
+using Points = std::vector<ResponsePoint>;
+// A number as the design's own level has it, moved as a member moves it among few skins and pixels,
+// which make forces tens of percent too large. NaN: none. Eq. accuracy.15
+using MovedNumber =
+    std::function<double(const Points& own, const Points& few, const Points& member)>;
+
+// Adds the deviations of a number's mean by the values without each skin, times a factor. Values
+// that are none add nothing.
+void add_deviations(double all, const std::vector<double>& without, double factor,
+                    std::vector<double>& out) {
+  const std::vector<double> samples = jackknife_samples(all, without);
+  const double mean = mean_estimate(samples).value, n = static_cast<double>(samples.size());
+  for (std::size_t k = 0; k < without.size(); ++k)
+    out.push_back(std::isnan(mean) ? 0 : factor * (samples[k] - mean) / std::sqrt(n * (n - 1)));
+}
+
+// Eq. lab.3: what skins leave open is that of the design's own level, and on average over belief
+// that of the members' moves.
+MemberNumbers numbers_of(const DesignRuns& runs, const MovedNumber& number) {
+  MemberNumbers out;
+  const Points &own = runs.own.points, &few = runs.few.points;
+  out.own = number(own, few, few);
+  std::vector<double> without, &deviations = out.sampling.deviations;
+  for (const Points& points : runs.own.without) without.push_back(number(points, few, few));
+  add_deviations(out.own, without, 1, deviations);
+  for (std::size_t m = 0; m < runs.members.size(); ++m) {
+    const Response& member = runs.members[m];
+    out.at.push_back(number(own, few, member.points));
+    without.clear();
+    for (std::size_t k = 0; k < member.without.size(); ++k)
+      without.push_back(number(own, runs.few.without[k], member.without[k]));
+    add_deviations(out.at.back(), without, std::sqrt(runs.weights[m]), deviations);
+  }
+  return out;
+}
+
+// As they are kept: own number, members, skins.
+std::vector<double> listed(const MemberNumbers& numbers) {
+  std::vector<double> out{numbers.own};
+  out.insert(out.end(), numbers.at.begin(), numbers.at.end());
+  out.insert(out.end(), numbers.sampling.deviations.begin(), numbers.sampling.deviations.end());
+  return out;
+}
+
+// skins: what the deviations are of.
+MemberNumbers unlisted(const double* from, std::size_t members, std::size_t deviations,
+                       const std::string& skins) {
+  const double *at = from + 1, *of_skins = at + members;
+  return {{at, of_skins}, *from, {skins, {of_skins, of_skins + deviations}}};
+}
+
+double moved_off(const Points& own, const Points& few, const Points& member) {
+  const ResponsePoint& p = own.front();
+  if (!p.knows_undriven() || !member.front().knows_undriven()) return std::nan("");
+  return moved(p.friction_off.value, few.front().friction_off.value,
+               member.front().friction_off.value, true);
+}
+
+// By what the voltage adds: nearer to an evaluation of the member than the force in proportion.
+double moved_on(const Points& own, const Points& few, const Points& member) {
+  if (!own.front().knows_driven() || !member.front().knows_driven()) return std::nan("");
+  const auto gain = [](const Points& points) {
+    return points.front().friction_on.value / points.front().friction_off.value - 1;
+  };
+  return moved_off(own, few, member) * (1 + moved(gain(own), gain(few), gain(member), true));
+}
 
 }  // namespace
 
@@ -65,21 +140,46 @@ Design under_conditions(const Design& design, const Conditions& at) {
   return out;
 }
 
-std::vector<Response> MemberModel::runs(const Design& design) const {
-  const std::vector<Scene> scenes = belief_scenes(belief_, scene_of(design));
-  Fidelity few = belief_fidelity(fidelity_of(design));
+namespace {
+
+DesignRuns runs_of(const Design& design, const Belief& belief, int threads) {
+  const Scene scene = scene_of(design);
+  const Fidelity wanted = fidelity_of(design);
+  DesignRuns out;
+  out.own = evaluate(scene, design.texture, wanted);
+  for (const BeliefMember& m : belief.members) out.weights.push_back(m.weight);
+  std::vector<Scene> scenes = belief_scenes(belief, scene);
+  scenes.push_back(scene);
+  Fidelity few = belief_fidelity(wanted);
+  few.skins = few.equilibrium_skins = std::min(wanted.skins, kMemberSkins);
   few.threads = 1;  // a member each
-  std::vector<Response> out(scenes.size());
+  out.members.resize(scenes.size());
   parallel_for(
       static_cast<int>(scenes.size()),
       [&](int i) {
         const auto k = static_cast<std::size_t>(i);
         const Watch quiet({}, nullptr);  // members are counted, not their skins
-        out[k] = respond(scenes[k], few, solve_patches(scenes[k], design.texture, few));
+        out.members[k] = respond(scenes[k], few, solve_patches(scenes[k], design.texture, few));
       },
-      threads_);
+      threads);
+  out.few = std::move(out.members.back());
+  out.members.pop_back();
   return out;
 }
+
+// How many deviations a number has, and whose: those of the designs of a seed and a level are of
+// the same skins.
+std::size_t deviations_of(const Design& design, std::size_t members) {
+  const int skins = fidelity_of(design).skins;
+  return static_cast<std::size_t>(skins) +
+         members * static_cast<std::size_t>(std::min(skins, kMemberSkins));
+}
+std::string skins_of(const Design& design) {
+  const Fidelity f = fidelity_of(design);
+  return fmt::format("{} skins of seed {}", f.skins, f.seed);
+}
+
+}  // namespace
 
 std::vector<double> MemberModel::kept(const std::string& question, std::size_t size,
                                       const std::function<std::vector<double>()>& make) {
@@ -89,6 +189,7 @@ std::vector<double> MemberModel::kept(const std::string& question, std::size_t s
     if (answer.size() == size) return answer;
   }
   std::vector<double> answer = make();
+  answer.resize(size, 0);  // of one skin: no deviations
   ++evaluated_;
   kept_.keep(key, written(answer));
   return answer;
@@ -96,64 +197,46 @@ std::vector<double> MemberModel::kept(const std::string& question, std::size_t s
 
 MemberFriction MemberModel::friction(const Design& design, const Conditions& at) {
   const Design there = under_conditions(design, at);
+  const std::size_t members = belief_.members.size(), deviations = deviations_of(there, members),
+                    size = 1 + members + deviations;
   const std::vector<double> answer =
-      kept("friction at the design's level\n" + write_toml(to_table(there)),
-           kNumbers * belief_.members.size(), [&] {
-             if (note_)
-               note_(fmt::format("{}, {}, at {} members", there.title, text(at),
-                                 belief_.members.size()));
-             const Scene scene = scene_of(there);
-             const Fidelity wanted = fidelity_of(there), least = belief_fidelity(wanted);
-             const ResponsePoint own = evaluate(scene, there.texture, wanted).points.front();
-             const ResponsePoint few =
-                 respond(scene, least, solve_patches(scene, there.texture, least)).points.front();
-             std::vector<double> out;
-             for (const Response& r : runs(there)) {
-               const ResponsePoint& p = r.points.front();
-               // A reading is of a force, which few pixels make too large by tens of percent: it is
-               // as the design's own level has it, moved as the member moves it. Eq. accuracy.15
-               const auto at_member = [&](Measured PointQuantities::*force) {
-                 return moved((own.*force).value, (few.*force).value, (p.*force).value, true);
-               };
-               const bool off = p.knows_undriven() && own.knows_undriven(),
-                          on = r.driven && p.knows_driven() && own.knows_driven();
-               out.push_back(off ? at_member(&PointQuantities::friction_off) : std::nan(""));
-               out.push_back(on ? at_member(&PointQuantities::friction_on) : std::nan(""));
-               out.push_back(share(own.friction_off));
-               out.push_back(share(own.friction_on));
-             }
-             return out;
-           });
-  MemberFriction out;
-  std::vector<double> off_se, on_se;
-  for (std::size_t i = 0; i < answer.size(); i += kNumbers) {
-    out.off.push_back(answer[i]);
-    if (at.driven()) out.on.push_back(answer[i + 1]);
-    off_se.push_back(answer[i + 2]);
-    on_se.push_back(answer[i + 3]);
-  }
-  out.off_se = quantile(off_se, 0.5);
-  out.on_se = quantile(on_se, 0.5);
-  return out;
+      kept("friction with what skins leave open\n" + write_toml(to_table(there)), 2 * size, [&] {
+        if (note_) note_(fmt::format("{}, {}, at {} members", there.title, text(at), members));
+        const DesignRuns runs = runs_of(there, belief_, threads_);
+        std::vector<double> out = listed(numbers_of(runs, moved_off)),
+                            on = listed(numbers_of(runs, moved_on));
+        out.insert(out.end(), on.begin(), on.end());
+        return out;
+      });
+  return {unlisted(answer.data(), members, deviations, skins_of(there)),
+          unlisted(answer.data() + size, members, deviations, skins_of(there))};
 }
 
-std::vector<double> MemberModel::worth(const Design& design, const MetricExpression& expression) {
+MemberNumbers MemberModel::worth(const Design& design, const MetricExpression& expression) {
   Design own = design;
   own.finger.belief.clear();
-  return kept("worth " + metric_text(expression) + "\n" + write_toml(to_table(own)),
-              belief_.members.size(), [&] {
-                if (note_)
-                  note_(fmt::format("{}: {} at {} members", design.title, metric_text(expression),
-                                    belief_.members.size()));
-                const double sign = better_direction(expression) == Better::Lower ? -1 : 1;
-                std::vector<double> out;
-                for (const Response& r : runs(own)) {
-                  const auto value =
-                      summary_of_points(expression.summary, expression.metric, r.points);
-                  out.push_back(value ? sign * *value : std::nan(""));
-                }
-                return out;
-              });
+  const std::size_t members = belief_.members.size(), deviations = deviations_of(own, members);
+  const std::vector<double> answer = kept(
+      "worth with what skins leave open " + metric_text(expression) + "\n" +
+          write_toml(to_table(own)),
+      1 + members + deviations, [&] {
+        if (note_)
+          note_(
+              fmt::format("{}: {} at {} members", design.title, metric_text(expression), members));
+        const double sign = better_direction(expression) == Better::Lower ? -1 : 1;
+        const bool size = keeps_sign(expression.summary, expression.metric);
+        const auto number = [&](const Points& points) {
+          return summary_of_points(expression.summary, expression.metric, points)
+              .value_or(std::nan(""));
+        };
+        return listed(numbers_of(runs_of(own, belief_, threads_),
+                                 [&](const Points& o, const Points& few, const Points& member) {
+                                   const double at_own = number(o);
+                                   if (std::isnan(at_own)) return at_own;
+                                   return sign * moved(at_own, number(few), number(member), size);
+                                 }));
+      });
+  return unlisted(answer.data(), members, deviations, skins_of(own));
 }
 
 }  // namespace papilla::lab

@@ -8,6 +8,7 @@
 
 #include "base/rooms.h"
 #include "design/design.h"
+#include "lab/ensemble.h"
 #include "lab/experiment.h"
 #include "metrics/metrics.h"
 #include "optim/unfinished.h"
@@ -15,10 +16,16 @@
 
 namespace papilla::lab {
 
-// Of one experiment. NaN where a member has no such state.
+// A number of a design over belief. NaN where a member has no such state.
+struct MemberNumbers {
+  std::vector<double> at;  // [member]
+  double own = 0;          // by the design's own finger at its own level
+  Sampling sampling;       // of that
+};
+
+// Of one experiment [N]; on of an undriven one: NaN.
 struct MemberFriction {
-  std::vector<double> off, on;   // [member] [N]; on empty: undriven
-  double off_se = 0, on_se = 0;  // of the model's few skins, a share: the median over members
+  MemberNumbers off, on;
 };
 
 class MemberModel {
@@ -34,14 +41,12 @@ class MemberModel {
   // contact of a humidity starts from that of the one before, so an answer would depend, within
   // the tolerance of the contact, on what else was asked.
   MemberFriction friction(const Design& design, const Conditions& at);
-  // [member] of the design at its own drive and humidities, higher is better; NaN where it has
-  // none.
-  std::vector<double> worth(const Design& design, const MetricExpression& expression);
+  // Of the design at its own drive and humidities, higher is better.
+  MemberNumbers worth(const Design& design, const MetricExpression& expression);
 
  private:
   std::vector<double> kept(const std::string& question, std::size_t size,
                            const std::function<std::vector<double>()>& make);
-  std::vector<Response> runs(const Design& design) const;
 
   Belief belief_;
   std::string belief_text_;

@@ -22,15 +22,13 @@ void fields(FieldVisitor& v, Instrument& s) {
       s.model);
 }
 
-double covariance(const Instrument& i, const Observation& a, const Observation& b, bool same,
-                  double numerical) {
+double covariance(const Instrument& i, const Observation& a, const Observation& b, bool same) {
   double out = same ? square(a.deviation) : 0;
   if (a.finger == b.finger) {
     out += square(i.finger_to_finger);
     if (a.day == b.day) out += square(i.day_to_day);
   }
   if (a.design == b.design) out += square(i.model);
-  if (a.cell == b.cell) out += numerical;
   return out;  // Eq. lab.1
 }
 

@@ -24,15 +24,14 @@ void fields(FieldVisitor& v, Instrument& s);
 
 // A reading, or the mean of some, as the covariance sees it.
 struct Observation {
-  std::size_t row = 0;               // of the ensemble's responses
-  double deviation = 0;              // of its own
-  std::size_t design = 0, cell = 0;  // a cell: one experiment, its off and on
+  std::size_t row = 0;   // of the ensemble's responses
+  double deviation = 0;  // of its own
+  std::size_t design = 0;
   std::string finger, day;
 };
 
-// Of two readings beside what belief says; numerical: the product of the model's sampling errors at
-// their rows, which are common to the readings of a cell. Eq. lab.1
+// Of two readings beside what belief says and what the model's skins leave open. Eq. lab.1
 double covariance(const Instrument& instrument, const Observation& a, const Observation& b,
-                  bool same, double numerical);
+                  bool same);
 
 }  // namespace papilla::lab

@@ -7,13 +7,10 @@
 namespace papilla::lab {
 namespace {
 
-std::string skin_key(const Experiment& e) {
-  return fmt::format("{} {:.6g} {:.6g} {}", e.design, e.at.load, e.at.relative_humidity,
-                     static_cast<int>(e.at.state));
-}
-
 std::string cell_key(const Experiment& e) {
-  return fmt::format("{} {:.6g} {:.6g}", skin_key(e), e.at.voltage, e.at.frequency);
+  return fmt::format("{} {:.6g} {:.6g} {} {:.6g} {:.6g}", e.design, e.at.load,
+                     e.at.relative_humidity, static_cast<int>(e.at.state), e.at.voltage,
+                     e.at.frequency);
 }
 
 }  // namespace
@@ -28,28 +25,28 @@ const MemberFriction& ResponseTable::friction(const Experiment& e) {
 
 void ResponseTable::lay(const std::vector<Experiment>& experiments) {
   cells_.clear();
-  skins_.clear();
   responses_.clear();
-  numerical_.clear();
+  sampling_.clear();
   for (const Experiment& e : experiments) {
     const auto [place, is_new] = cells_.try_emplace(cell_key(e));
     if (!is_new) continue;
     const MemberFriction& found = friction(e);
     MeasurableCell& cell = place->second;
-    cell.skin = skins_.emplace(skin_key(e), skins_.size()).first->second;
-    cell.off = add_row(found.off, found.off_se);
-    if (e.at.driven()) cell.on = add_row(found.on, found.on_se);
+    cell.off = add_row(found.off);
+    if (e.at.driven()) cell.on = add_row(found.on);
   }
 }
 
-std::optional<std::size_t> ResponseTable::add_row(const std::vector<double>& forces, double error) {
+std::optional<std::size_t> ResponseTable::add_row(const MemberNumbers& friction) {
   std::vector<double> row;
-  for (const double f : forces) {
+  for (const double f : friction.at) {
     if (!(f > 0) || !std::isfinite(f)) return std::nullopt;
     row.push_back(std::log(f));
   }
   responses_.push_back(std::move(row));
-  numerical_.push_back(error);
+  Sampling share = friction.sampling;  // of the friction: what its logarithm moves by
+  for (double& d : share.deviations) d /= friction.own;
+  sampling_.push_back(std::move(share));
   return responses_.size() - 1;
 }
 

@@ -20,7 +20,6 @@ struct LabDesign {
 
 // The readings of one experiment: rows of the ensemble.
 struct MeasurableCell {
-  std::size_t skin = 0;                // common to experiments that differ in the drive alone
   std::optional<std::size_t> off, on;  // none: some member has no such state
 };
 
@@ -37,19 +36,18 @@ class ResponseTable {
   const MeasurableCell& cell(const Experiment& experiment) const;
 
   const std::vector<std::vector<double>>& responses() const { return responses_; }
-  const std::vector<double>& numerical() const { return numerical_; }
+  const std::vector<Sampling>& sampling() const { return sampling_; }
 
  private:
   const MemberFriction& friction(const Experiment& experiment);
-  std::optional<std::size_t> add_row(const std::vector<double>& forces, double error);
+  std::optional<std::size_t> add_row(const MemberNumbers& friction);
 
   const std::vector<LabDesign>& designs_;
   MemberModel& model_;
   std::map<std::string, MemberFriction> known_;
   std::map<std::string, MeasurableCell> cells_;
-  std::map<std::string, std::size_t> skins_;
   std::vector<std::vector<double>> responses_;
-  std::vector<double> numerical_;
+  std::vector<Sampling> sampling_;
 };
 
 }  // namespace papilla::lab

@@ -21,9 +21,10 @@ class Whitened {
     std::vector<double> with;
     observations_.push_back(o);
     for (const Observation& other : observations_) {
-      with.push_back(covariance(instrument_, o, other, &other == &observations_.back(),
-                                ensemble_.numerical[o.row] * ensemble_.numerical[other.row]) +
-                     beside_(o.row, other.row));
+      with.push_back(
+          covariance(instrument_, o, other, &other == &observations_.back()) +
+          covariance(ensemble_.response_sampling[o.row], ensemble_.response_sampling[other.row]) +
+          beside_(o.row, other.row));
     }
     factor_.add(with);
     return factor_.row(factor_.size() - 1).back();

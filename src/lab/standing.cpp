@@ -28,8 +28,13 @@ void set_members(const Belief& belief, Ensemble& e) {
 }
 
 // Where a design is worth nothing at a member it is worth what the least is, and keeps no limit.
-void set_worth(const std::vector<std::vector<double>>& worth,
+void set_worth(const std::vector<MemberNumbers>& designs,
                const std::vector<std::vector<bool>>& kept, double wanted, Standing& out) {
+  std::vector<std::vector<double>> worth;
+  for (const MemberNumbers& d : designs) {
+    worth.push_back(d.at);
+    out.ensemble.worth_sampling.push_back(d.sampling);
+  }
   out.ensemble.worth = worth;
   out.limits.wanted = wanted;
   out.limits.kept = kept;
@@ -160,8 +165,8 @@ std::vector<Observation> observations_of(const ResponseTable& table, const Exper
   std::vector<Observation> out;
   const auto add = [&](const std::optional<std::size_t>& row, double share) {
     if (!row || share < 0) return;
-    out.push_back({*row, std::hypot(instrument.repeatability, share), experiment.design, cell.skin,
-                   finger, day});
+    out.push_back(
+        {*row, std::hypot(instrument.repeatability, share), experiment.design, finger, day});
   };
   add(cell.off, off_share);
   add(cell.on, on_share);
@@ -172,13 +177,13 @@ std::unique_ptr<Standing> standing_of(const Belief& belief, const LabFile& file,
                                       const std::vector<LabDesign>& designs,
                                       const ResponseTable& table,
                                       const std::vector<FrictionReading>& readings,
-                                      const std::vector<std::vector<double>>& worth,
+                                      const std::vector<MemberNumbers>& worth,
                                       const std::vector<std::vector<bool>>& kept) {
   auto out = std::make_unique<Standing>();
   Standing& s = *out;
   set_members(belief, s.ensemble);
   s.ensemble.responses = table.responses();
-  s.ensemble.numerical = table.numerical();
+  s.ensemble.response_sampling = table.sampling();
   set_worth(worth, kept, file.limits, s);
   for (std::size_t d = 0; d < designs.size(); ++d) {
     if (designs[d].choice) s.choices.push_back(d);

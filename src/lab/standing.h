@@ -56,7 +56,7 @@ std::unique_ptr<Standing> standing_of(const Belief& belief, const LabFile& file,
                                       const std::vector<LabDesign>& designs,
                                       const ResponseTable& table,
                                       const std::vector<FrictionReading>& readings,
-                                      const std::vector<std::vector<double>>& worth,
+                                      const std::vector<MemberNumbers>& worth,
                                       const std::vector<std::vector<bool>>& kept);
 
 }  // namespace papilla::lab

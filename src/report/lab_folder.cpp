@@ -91,7 +91,7 @@ NextReport next_in_lab(const NextRun& run) {
   const std::vector<std::string>& paths = run.source.paths;
   const bool goes_on = paths.size() == 1 && is_lab(paths.front());
   out.folder = goes_on ? paths.front() : folder_for(run);
-  if (!goes_on && is_lab(out.folder))
+  if (!goes_on && has_begun(out.folder))
     throw InputError(out.folder + ": is a lab already; `papilla next " + out.folder +
                      "` goes on with it, --lab names another folder");
   if (!goes_on) {

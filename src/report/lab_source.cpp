@@ -55,7 +55,7 @@ class LabOpener {
   }
 
   static bool is_calibration(const std::string& path) {
-    return load_document(path, {}, design_roots()).has("parameters");
+    return load_document(own_or_shipped(path), {}, design_roots()).has("parameters");
   }
 
   // Under a name that no other has; the index of the design.

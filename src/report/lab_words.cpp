@@ -298,6 +298,16 @@ std::string lab_page(Lab& lab) {
   return out;
 }
 
+namespace {
+
+// Of the carrier [Hz].
+double frequency_of(const Lab& lab, const Experiment& e) {
+  if (e.at.frequency > 0) return e.at.frequency;
+  return lab.designs()[e.design].design.drive.frequency;
+}
+
+}  // namespace
+
 std::string lab_plan_csv(const Lab& lab, const PlanRecord& plan) {
   std::string out =
       "experiment,field,design,repeat,load_N,humidity_percent,voltage_V,frequency_Hz,state,finger,"
@@ -307,7 +317,8 @@ std::string lab_plan_csv(const Lab& lab, const PlanRecord& plan) {
     for (int k = 1; k <= e.repeats; ++k)
       out += fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{},,,,,,\n", e.id,
                          csv_cell(e.field), csv_cell(lab.designs()[e.experiment.design].name), k,
-                         at.load, 100 * at.relative_humidity, at.voltage, at.frequency,
+                         at.load, 100 * at.relative_humidity, at.voltage,
+                         at.driven() ? frequency_of(lab, e.experiment) : 0,
                          finger_state_names()[static_cast<std::size_t>(at.state)]);
   }
   return out;
@@ -322,11 +333,10 @@ std::string lab_readings_csv(const Lab& lab) {
     if (!(r.off > 0)) continue;
     const Conditions& at = r.experiment.at;
     const auto sd = [&](double force, double stated) { return std::hypot(stated, own * force); };
-    out += fmt::format(
-        "{},{:.4g} %,{:.6g},{:.6g},{:.6g},{:.6g},{:.3g},",
-        lab.file().designs[r.experiment.design].file, 100 * at.relative_humidity, at.voltage,
-        at.frequency > 0 ? at.frequency : lab.designs()[r.experiment.design].design.drive.frequency,
-        at.load, r.off, sd(r.off, r.off_sd));
+    out += fmt::format("{},{:.4g} %,{:.6g},{:.6g},{:.6g},{:.6g},{:.3g},",
+                       lab.file().designs[r.experiment.design].file, 100 * at.relative_humidity,
+                       at.voltage, frequency_of(lab, r.experiment), at.load, r.off,
+                       sd(r.off, r.off_sd));
     out += r.on > 0 ? fmt::format("{:.6g},{:.3g}\n", r.on, sd(r.on, r.on_sd)) : std::string(",\n");
   }
   return out;

@@ -83,6 +83,9 @@ TEST_F(TablesAndFiles, NumbersLieInTheirRanges) {
   EXPECT_EQ(told("0.5,1,5,0.2,1,0,,"), "2:7: F_off_sd_N: 0 lies outside 1e-09 to 1000\n");
   EXPECT_EQ(told("0.5,1,5,0.2,1,1,1001,1"), "2:8: F_on_N: 1001 lies outside 0 to 1000\n");
   EXPECT_EQ(told("0.5,1,5,0.2,1,1,1,"), "2:9: F_on_sd_N: expected a number, got \"\"\n");
+  EXPECT_EQ(told("0.5,1,5,0.2,,,1,1"),
+            "2:6: F_off_N: a row under voltage needs the friction without it too, of the same "
+            "touch\n");
   EXPECT_EQ(told("0.5,1,5,0.2,1,1,1,0"), "2:9: F_on_sd_N: 0 lies outside 1e-09 to 1000\n");
   EXPECT_EQ(told("0.5,0,0,0.2,1,1,1,1"),
             "2:8: F_on_N: a friction under voltage, but amplitude_V is 0\n");

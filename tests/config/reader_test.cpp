@@ -263,6 +263,26 @@ TEST(Reader, TheBaseOfASectionStandsAboveThatOfTheFile) {
   EXPECT_EQ(finger({"finger.base=\"hard.toml\""}), "hard");
 }
 
+TEST(Reader, ABaseThatACallerNamesLiesWhereverTheCallerSays) {
+  const Folder folder("own_base");
+  folder.write("fitted/skin.toml", "[skin]\nrms = \"70 nm\"\n");
+  const std::string own =
+      folder.write("fitted/own.toml", "schema_version = 1\nname = \"own\"\nbase = \"skin.toml\"\n");
+  const std::string study =
+      folder.write("designs/study.toml", "schema_version = 1\n[finger]\nname = \"of the file\"\n");
+  const auto read = [&](const std::vector<std::string>& overrides) {
+    Document document = load_document(study, overrides);
+    Whole whole;
+    read_section(document, "", whole);
+    finish(document);
+    return whole.finger;
+  };
+  EXPECT_EQ(read({"finger.base=\"" + own + "\""}).skin.rms, 70e-9);
+  // A file that names it is still refused.
+  folder.write("designs/study.toml", "schema_version = 1\n[finger]\nbase = \"" + own + "\"\n");
+  EXPECT_NE(refusal_of([&] { read({}); }).find("outside"), std::string::npos);
+}
+
 TEST(Reader, BasesOutsideTheRootsAndCyclesAreRefused) {
   const Folder folder("cycle");
   folder.write("secret.toml", "[drive]\n");

@@ -31,6 +31,9 @@ TEST(Contradictions, OfTheAirAreItsOrderAndItsWeights) {
   EXPECT_EQ(said(d), "");
   air.relative_humidity = {0.2, 0.2};
   EXPECT_EQ(said(d), rising);
+  air.relative_humidity.clear();
+  for (int i = 0; i <= 1000; ++i) air.relative_humidity.push_back(i / 1000.0);
+  EXPECT_EQ(said(d), "environment.relative_humidity: 1001 humidities: expected 1000 at most\n");
   air.relative_humidity = {0.2, 0.4, 0.3, 0.1};  // said once
   EXPECT_EQ(said(d), rising);
   air.relative_humidity = {0.2, 0.4, 0.6};

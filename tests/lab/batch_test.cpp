@@ -92,7 +92,7 @@ TEST(HypothesesGain, PrefersTheLargestDifferenceOverItsScatter) {
   e.hypothesis = {0, 0, 1, 1};
   // Row 0: far apart, but each hypothesis leaves it open; row 1: nearer, and each is sure of it.
   e.responses = {{-1.0, 1.0, 0.0, 2.0}, {0.0, 0.02, 0.3, 0.32}, {0.0, 0.0, 0.0, 0.0}};
-  e.numerical = {0, 0, 0};
+  e.response_sampling.resize(3);
   const Kernels k = kernels_of(e);
   const Instrument instrument = plain_instrument(0.05);
   const Evidence none(e, k, instrument);

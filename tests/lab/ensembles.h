@@ -33,7 +33,8 @@ inline Ensemble linear_ensemble(int members, const std::vector<std::vector<doubl
     for (std::size_t i = 0; i < responses.size(); ++i) e.responses[i].push_back(dot(responses[i]));
     for (std::size_t d = 0; d < worth.size(); ++d) e.worth[d].push_back(dot(worth[d]));
   }
-  e.numerical.assign(responses.size(), 0);
+  e.response_sampling.resize(responses.size());  // none
+  e.worth_sampling.resize(worth.size());
   return e;
 }
 
@@ -41,7 +42,7 @@ inline Ensemble linear_ensemble(int members, const std::vector<std::vector<doubl
 inline Instrument plain_instrument(double repeatability) { return {repeatability, 0, 0, 0}; }
 
 inline Observation observation(std::size_t row, double deviation, std::size_t design = 0) {
-  return {row, deviation, design, row, "1", "1"};
+  return {row, deviation, design, "1", "1"};
 }
 
 }  // namespace papilla::tests

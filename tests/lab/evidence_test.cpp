@@ -24,7 +24,7 @@ TEST(Kernels, KeepMeanAndCovarianceOfTheMembers) {
     within += std::pow(k.responses[0][m] - middle, 2) / 40;
   }
   EXPECT_NEAR(middle, mean, 1e-12);
-  EXPECT_NEAR(within + k.width * k.width * k.covariance(0, 0), variance, 1e-12);
+  EXPECT_NEAR(within + k.covariance(0, 0), variance, 1e-12);
   // Two directions of unlike size: (1.29 + 1.04)^2 / ... lies between 1 and 2 dimensions.
   EXPECT_GT(k.width, 0.4);
   EXPECT_LT(k.width, 0.65);
@@ -32,24 +32,29 @@ TEST(Kernels, KeepMeanAndCovarianceOfTheMembers) {
 
 TEST(Evidence, GivesTheWeightsOfTheDensityOfAllReadingsTogether) {
   Ensemble e = linear_ensemble(12, {{1, 0.5}, {0.2, -1}, {0.7, 0.1}}, {{2, 1}});
-  e.numerical = {0.02, 0.3, 0.1};  // of the model, common to a cell: off and on differ
+  // Of the model's skins: rows 0 and 1 of the same ones, row 2 of others.
+  e.response_sampling = {{"a", {0.02, 0.1}}, {"a", {0.3, -0.1}}, {"b", {0.1, 0.2}}};
   const Kernels k = kernels_of(e);
   const Instrument instrument{0.1, 0.2, 0.3, 0.15};
   Evidence evidence(e, k, instrument);
   std::vector<Observation> all{observation(0, 0.1, 0), observation(1, 0.15, 0),
                                observation(2, 0.1, 1), observation(0, 0.1, 0)};
   all[3].day = "2";
-  all[1].cell = all[0].cell;
   const std::vector<double> y{0.3, -0.2, 0.1, 0.4};
   Eigen::MatrixXd c(4, 4);
   for (std::size_t i = 0; i < 4; ++i) {
     evidence.add(all[i], y[i]);
     for (std::size_t j = 0; j < 4; ++j)
       c(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          covariance(instrument, all[i], all[j], i == j,
-                     e.numerical[all[i].row] * e.numerical[all[j].row]) +
-          k.width * k.width * k.covariance(all[i].row, all[j].row);
+          covariance(instrument, all[i], all[j], i == j) + k.covariance(all[i].row, all[j].row);
   }
+  const double kernel = k.width * k.width;
+  double moves = 0;
+  for (std::size_t m = 0; m < 12; ++m) moves += k.response_moves[0][m] * k.response_moves[1][m];
+  EXPECT_NEAR(k.covariance(0, 1), kernel * moves + 0.02 * 0.3 - 0.1 * 0.1, 1e-12);
+  moves = 0;
+  for (std::size_t m = 0; m < 12; ++m) moves += k.response_moves[0][m] * k.response_moves[2][m];
+  EXPECT_NEAR(k.covariance(0, 2), kernel * moves, 1e-12);
   std::vector<double> expected;
   double sum = 0;
   for (std::size_t m = 0; m < 12; ++m) {
@@ -79,6 +84,29 @@ TEST(Evidence, MovesWorthAsALinearModelDoes) {
   // x ~ N(0, 1), y = x + N(0, .25): mean 0.8 / 1.25, variance 0.25 / 1.25; worth 2 x.
   EXPECT_NEAR(mean, 2 * 0.64, 0.03);
   EXPECT_NEAR(std::sqrt(squares - mean * mean), 2 * std::sqrt(0.2), 0.03);
+}
+
+// Members agree on everything; the skins leave friction open, and worth with it: a normal number s
+// moves rows by .1 s and .4 s, worth by 2 s.
+TEST(Evidence, MovesWorthByWhatSkinsLeaveOpenOfBoth) {
+  Ensemble e = linear_ensemble(200, {{1e-9}, {1e-9}}, {{1e-9}, {0}});
+  e.response_sampling = {{"a", {0.1}}, {"a", {0.4}}};
+  e.worth_sampling = {{"a", {2}}, {"a", {0}}};
+  const Kernels k = kernels_of(e);
+  // Both readings share the finger, which leaves their ratio: .3 s + N(0, 2 .1^2).
+  const Instrument instrument{0.1, 0, 100, 0};
+  Evidence evidence(e, k, instrument);
+  evidence.add(observation(0, 0.1), 0.0);
+  evidence.add(observation(1, 0.1), 0.25);
+  const WorthAfter after = worth_after(e, k, evidence);
+  double mean = 0, squares = 0;
+  for (std::size_t i = 0; i < after.weights.size(); ++i) {
+    mean += after.weights[i] * after.worth[0][i];
+    squares += after.weights[i] * after.worth[0][i] * after.worth[0][i];
+  }
+  const double left = 1 / (1 + 0.09 / 0.02);  // of the variance of s
+  EXPECT_NEAR(mean, 2 * left * 0.3 * 0.25 / 0.02, 1e-3);
+  EXPECT_NEAR(std::sqrt(squares - mean * mean), 2 * std::sqrt(left), 0.1);
 }
 
 TEST(Evidence, OfTwoReadingsOnADayKnowsTheirRatioBest) {

@@ -183,7 +183,7 @@ TEST_F(LabFolder, MovesWeightToTheHypothesisThatTheReadingsSpeakFor) {
           model.friction(lab.designs()[d].design, {0.2, rh, 200, 0, FingerState::Clean});
       for (int repeat = 1; repeat <= 3; ++repeat)
         rows += fmt::format("{},{},0.2,{},200,1,{:.6f},{:.6f}\n", lab.designs()[d].name, repeat,
-                            100 * rh, f.off[member], f.on[member]);
+                            100 * rh, f.off.at[member], f.on.at[member]);
     }
   }
   TellOptions options;
@@ -211,6 +211,31 @@ TEST_F(LabFolder, RefusesASecondOneThatWorksInIt) {
   const Lab lab(folder_, 1);
   EXPECT_NE(refusal_of([&] { const Lab second(folder_, 1); }).find("another papilla next or tell"),
             std::string::npos);
+}
+
+TEST_F(LabFolder, OpensAnewALabWhoseFirstPlanFailed) {
+  NextRun run;
+  run.source.paths = {(place_->path() / "deep.toml").string()};
+  run.source.belief = (place_->path() / "belief.toml").string();
+  run.folder = (own_.path() / "new").string();
+  run.options.date = "2026-03-01";
+  run.options.aim = Aim::Decision;  // of one design there is none
+  EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("nothing is decided"), std::string::npos);
+  EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("nothing is decided"), std::string::npos);
+  run.folder = folder_;  // one with a plan stays
+  EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("is a lab already"), std::string::npos);
+}
+
+// What a bench has to set stands in the plan, though the lab knows it as the design's own.
+TEST_F(LabFolder, SaysTheFrequencyOfTheDesignInItsPlan) {
+  const std::string plan = file_text(folder_ + "/plan_01.csv");
+  const double own = Lab(folder_, 1).designs().front().design.drive.frequency;
+  EXPECT_NE(plan.find(fmt::format(",200,{:.6g},clean", own)), std::string::npos) << plan;
+  tell(
+      {file("a.csv", fmt::format("design,repeat,load_N,humidity_percent,voltage_V,frequency_Hz,day,"
+                                 "F_off_N,F_on_N\ndeep,1,0.2,35,200,{:.6g},1,0.06,0.09\n",
+                                 own))});
+  EXPECT_EQ(Lab(folder_, 1).readings().front().experiment.at.frequency, 0);
 }
 
 TEST_F(LabFolder, SaysWhatIsWrongInLabToml) {

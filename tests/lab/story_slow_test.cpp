@@ -62,8 +62,8 @@ class Story : public testing::Test {
     const MemberFriction f =
         model.friction(lab.designs()[e.experiment.design].design, e.experiment.at);
     Tribometer t;
-    t.off = f.off[member];
-    t.on = f.on[member];
+    t.off = f.off.at[member];
+    t.on = f.on.at[member];
     t.humidity = e.experiment.at.relative_humidity;
     t.noise = 0.02 * t.off;
     t.zero_drift = 0.3 * t.off;
