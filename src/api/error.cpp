@@ -1,5 +1,8 @@
 #include "papilla/error.h"
 
+#include <cctype>
+
+#include "api/inside.h"
 #include "base/error.h"
 
 namespace papilla::api {
@@ -14,6 +17,23 @@ std::string text_of(const std::vector<Problem>& problems) {
 }
 
 }  // namespace
+
+std::string in_arguments(std::string message) {
+  const auto letter = [](char c) { return std::islower(static_cast<unsigned char>(c)) != 0; };
+  for (std::size_t at = 0; (at = message.find("--", at)) != std::string::npos;) {
+    const bool option = (at == 0 || message[at - 1] == ' ' || message[at - 1] == '(') &&
+                        at + 2 < message.size() && letter(message[at + 2]);
+    if (!option) {
+      at += 2;
+      continue;
+    }
+    message.erase(at, 2);
+    for (; at < message.size() && (letter(message[at]) || message[at] == '-'); ++at) {
+      if (message[at] == '-') message[at] = '_';
+    }
+  }
+  return message;
+}
 
 std::string Problem::text() const { return inner(*this).text(); }
 

@@ -45,10 +45,13 @@ inline rooms::InputError wrong(const std::string& argument, const std::string& m
   return rooms::InputError({rooms::Problem{"", 0, 0, argument, message}});
 }
 
+// Options of the command are arguments here: "--any-conditions", any_conditions.
+std::string in_arguments(std::string message);
+
 [[noreturn]] inline void rethrow(const rooms::InputError& error) {
   std::vector<Problem> problems;
   for (const rooms::Problem& p : error.problems())
-    problems.push_back({p.file, p.line, p.column, p.key, p.message});
+    problems.push_back({p.file, p.line, p.column, p.key, in_arguments(p.message)});
   throw InputError(std::move(problems));
 }
 

@@ -75,8 +75,7 @@ void add_studio(Command app, Context& context) {
   command
       .add_option("--folder", options->folder,
                   "The one folder that the page may read and write, made if it is not there; "
-                  "default: that of "
-                  "the file")
+                  "default: that of the file, of a shipped design the working folder")
       .type_name("DIR");
   command.add_flag("--no-open", options->no_open, "Print the address and open no browser");
   command.document(

@@ -62,11 +62,16 @@ Json section_json(const Texture& texture, int pixels) {
     const auto begin = h.z.begin() + static_cast<std::ptrdiff_t>(h.grid.index(0, y));
     return std::accumulate(begin, begin + pixels, 0.0);
   };
+  // Rows through like features are equal but for rounding: the first of them, so that the section
+  // stays where it is as the design moves.
+  const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
+  const double alike = 1e-6 * pixels * (*high - *low);
   int middle = 0;
   double most = row_mean(0);
   for (int y = 1; y < kRows; ++y) {
     const double mean = row_mean(y);
-    if (features->deep ? mean < most : mean > most) std::tie(middle, most) = std::pair(y, mean);
+    if ((features->deep ? most - mean : mean - most) > alike)
+      std::tie(middle, most) = std::pair(y, mean);
   }
   const auto begin = h.z.begin() + static_cast<std::ptrdiff_t>(h.grid.index(0, middle));
   Json out = bytes_json({pixels, 1, cell.lx, h.grid.dy()}, {begin, begin + pixels});

@@ -17,11 +17,12 @@ constexpr std::array<Quantity, 3> kCarried{
 
 // A quick level, and what a refined answer usually is of its own: of kCarried.
 struct QuickLevel {
-  int grid, skins;
+  int grid;
   std::array<double, 3> usual;
 };
-constexpr QuickLevel kCoarse{64, 8, {0.69, 0.66, 0.88}};
-constexpr QuickLevel kFine{128, 5, {0.84, 0.82, 0.94}};  // where features are narrow
+constexpr QuickLevel kCoarse{64, {0.69, 0.66, 0.88}};
+constexpr QuickLevel kFine{128, {0.84, 0.82, 0.94}};  // where features are narrow
+constexpr int kSkins = 8;
 constexpr double kFewPixels = 4;  // of the smallest feature: its area is not its own below
 
 // Relative, one standard error (docs/theory/studio.md): what the ratio changes with the distance;
@@ -76,9 +77,8 @@ void state_alone(const Plan& plan, bool field_known, double usual, double spread
 Fidelity quick_fidelity(const Design& design) {
   Fidelity out = fidelity_level("search");
   out.seed = static_cast<std::uint64_t>(design.accuracy.seed);
-  const QuickLevel& level = quick_level(design);
-  out.grid = level.grid;
-  out.skins = level.skins;
+  out.grid = quick_level(design).grid;
+  out.skins = kSkins;
   return out;
 }
 

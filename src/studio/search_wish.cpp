@@ -246,7 +246,9 @@ Json proposed_wish(const Study& study, const std::string& kept) {
     known.push_back(
         {{"name", kind.name}, {"unit", kind.unit}, {"doc", kind.doc}, {"at_least", kind.at_least}});
   for (const MetricInfo& metric : metric_list()) {
-    if (!metric.appearance) metrics.push_back({{"name", metric.name}, {"doc", metric.doc}});
+    const std::string name =
+        metric.takes_modulation ? metric.name + "(modulation = 0.3)" : metric.name;
+    if (!metric.appearance) metrics.push_back({{"name", name}, {"doc", metric.doc}});
   }
   for (const Variable& v : study.variables) {
     if (!v.is_kind()) continue;
@@ -283,6 +285,12 @@ Json proposed_wish(const Study& study, const std::string& kept) {
 std::string study_text(const Study& study, const SearchWish& wish) {
   if (wish.maximise.empty() && wish.minimise.empty())
     throw InputError("a search needs something to maximise or to minimise");
+  const std::string own(texture_kinds()[study.design.texture.kind.index()]);
+  if (wish.kinds.size() == 1 && wish.kinds.front() != own)
+    throw InputError(fmt::format(
+        "{} alone is another kind than the design at hand ({}): let both compete, or make it the "
+        "design at hand",
+        wish.kinds.front(), own));
   Study out = study;
   Node& sections = out.study_sections;
   Node space = space_node(wish);

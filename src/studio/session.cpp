@@ -299,10 +299,16 @@ std::uint64_t Session::go_to(std::size_t done) {
 std::string step_text(const Draft& from, const Draft& to) {
   constexpr std::size_t kMostNamed = 3;
   if (from.file != to.file) return std::filesystem::path(to.file).filename().string() + " opened";
-  const auto called = [](std::string path) {
-    path.erase(0, path.find('.') + 1);
-    std::replace(path.begin(), path.end(), '_', ' ');
-    return path;
+  // "surface.dielectric.0.thickness": dielectric 1 thickness, as the page calls it.
+  const auto called = [](const std::string& path) {
+    std::string out;
+    for (std::string part : split(path.substr(path.find('.') + 1), '.')) {
+      const bool index = part.find_first_not_of("0123456789") == std::string::npos;
+      if (index) part = fmt::format("{}", std::stoul(part) + 1);
+      out += (out.empty() ? "" : " ") + part;
+    }
+    std::replace(out.begin(), out.end(), '_', ' ');
+    return out;
   };
   std::vector<std::string> parts;
   for (const Change& c : to.changes) {

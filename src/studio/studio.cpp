@@ -30,8 +30,11 @@ const std::string kOpeningFile = std::string(kStudioFolder) + "/open.html";
 // The file that the studio opens with: of a folder of results its best design.
 std::string opened_file(const std::string& given) {
   if (given.empty()) return find_design("electroadhesive_glass/study.toml");
-  const fs::path path = fs::weakly_canonical(given);
-  if (!fs::is_directory(path)) return path.string();
+  const fs::path path = fs::weakly_canonical(own_or_shipped(given));
+  if (!fs::is_directory(path)) {
+    read_study(path.string());  // what cannot be opened leaves no folder behind
+    return path.string();
+  }
   for (const char* name : {"best/design.toml", "design.toml", "study.toml"}) {
     if (fs::exists(path / name)) return (path / name).string();
   }
@@ -42,8 +45,14 @@ std::string opened_file(const std::string& given) {
 fs::path own_folder(const StudioOptions& options) {
   if (!options.folder.empty()) return fs::weakly_canonical(options.folder);
   if (options.file.empty()) return fs::current_path();
-  const fs::path path = fs::weakly_canonical(options.file);
-  return fs::is_directory(path) ? path : path.parent_path();
+  const fs::path path = fs::weakly_canonical(own_or_shipped(options.file)),
+                 folder = fs::is_directory(path) ? path : path.parent_path();
+  // Designs that Papilla brings stay as they are.
+  for (const std::string& root : design_roots()) {
+    const std::string below = folder.lexically_relative(fs::weakly_canonical(root)).string();
+    if (!below.empty() && !below.starts_with("..")) return fs::current_path();
+  }
+  return folder;
 }
 
 Json kinds_json() {
@@ -145,10 +154,12 @@ struct Studio::Asked {
   int whole(const char* key) const { return body.at(key).get<int>(); }
 };
 
-Studio::Studio(const StudioOptions& options)
+Studio::Studio(const StudioOptions& options) : Studio(options, opened_file(options.file)) {}
+
+Studio::Studio(const StudioOptions& options, const std::string& file)
     : files_(own_folder(options)),
       lock_(files_.handle().made_below(kStudioFolder), "lock", "another studio is working"),
-      session_(files_.folder(), opened_file(options.file)) {
+      session_(files_.folder(), file) {
   add_routes();
   lab_ = std::make_unique<LabDesk>(files_.folder(), options.program,
                                    [this] { events_.tell(Topic::Lab, lab_json()); });

@@ -43,6 +43,7 @@ class Studio {
   HttpAnswer answer(const HttpRequest& request);
 
  private:
+  Studio(const StudioOptions& options, const std::string& file);
   struct Asked;  // a request with its body read
   using Route = std::function<std::string(const Asked&)>;
 

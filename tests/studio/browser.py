@@ -173,6 +173,17 @@ def smoke(browser, folder):
         browser.run("const i = document.getElementById('k-texture-period'); i.value = '6,5 µm'; i.dispatchEvent(new Event('change'))")
         until(browser, "papilla.session().keys.find(k => k.path === 'texture.period').value === '6.5 um'", 10, "a decimal comma")
         browser.run("document.getElementById('undo').click()")
+        # The curves as a table, for those who hear the page.
+        rows = browser.run("return [...document.querySelectorAll('#values tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
+        check(len(rows) == 4 and all(" ± " in cell and cell.endswith("mN") for cell in (row[-1] for row in rows)), f"values over humidity: {rows}")
+        # Light and dark change colours alone: what is written and open stays.
+        browser.run("document.getElementById('filter').value = 'kept'; window.before = papilla.charts.modulation.data.datasets[0].borderColor")
+        browser.scheme("dark")
+        until(browser, "papilla.charts.modulation && papilla.charts.modulation.data.datasets[0].borderColor !== window.before", 10, "other colours")
+        check(browser.run("return document.getElementById('filter').value") == "kept", "the page was loaded again")
+        browser.scheme("light")
+        until(browser, "papilla.charts.modulation && papilla.charts.modulation.data.datasets[0].borderColor === window.before", 10, "the colours of before")
+        browser.run("document.getElementById('filter').value = ''")
         # What was written into the form of searches is there after a reload; the file's own comes back on demand.
         browser.run("const k = document.querySelector('#wishkinds input[value=pillar_array]'); k.click(); const e = document.getElementById('evaluations'); e.value = 37; e.dispatchEvent(new Event('input', {bubbles: true}))")
         time.sleep(1)

@@ -166,6 +166,18 @@ TEST_F(Server, SharesNeitherItsFolderNorItsPort) {
             std::string::npos);
 }
 
+TEST_F(Server, LeavesNothingOfAFileThatItCannotOpen) {
+  const TemporaryFolder other;
+  write_bytes(other.path() / "wrong.toml", "schema_version = 1\ntexture = 3\n");
+  for (const char* file : {"none.toml", "wrong.toml"}) {
+    const int code = std::system(("timeout 20 '" PAPILLA_PROGRAM "' studio --no-open '" +
+                                  (other.path() / file).string() + "' > /dev/null 2>&1")
+                                     .c_str());
+    EXPECT_EQ(WEXITSTATUS(code), 2) << file;
+  }
+  EXPECT_FALSE(std::filesystem::exists(other.path() / ".studio"));
+}
+
 // A link in the folder leads nowhere, and a name that is no UTF-8 does not end the page.
 TEST_F(Server, ListsWhatItWouldOpen) {
   write_bytes(folder_.path() / "mine.toml", "schema_version = 1\n");

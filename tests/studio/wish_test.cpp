@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "config/describe.h"
+#include "metrics/metrics.h"
 #include "optim/journal.h"
 #include "search/protocol.h"
 #include "search/records.h"
@@ -98,6 +99,9 @@ TEST(SearchWish, LetsTheChosenKindsAndFingersCompete) {
                                  [](const Variable& v) { return v.is_kind(); });
   ASSERT_NE(kind, made.variables.end());
   EXPECT_EQ(kind->choices.size(), 2u);
+  wish.kinds = {"waves"};
+  EXPECT_NE(refusal_of([&] { study_text(study, wish); }).find("waves alone is another kind"),
+            std::string::npos);
 }
 
 TEST(SearchWish, IsShownAsThePageLeftIt) {
@@ -191,7 +195,11 @@ TEST(SearchWish, ProposesTheGoalsAndLimitsOfItsStudy) {
     known = known ||
             (limit["name"] == "min_hole" && limit["unit"] == "um" && limit["at_least"] == true);
   EXPECT_TRUE(known);
-  for (const Json& metric : wish["metrics"]) EXPECT_NE(metric["name"], "haze");
+  for (const Json& metric : wish["metrics"]) {
+    EXPECT_NE(metric["name"], "haze");
+    // As the page writes it; "felt" alone is no metric.
+    EXPECT_NO_THROW(parse_own_metric("mean(" + metric["name"].get<std::string>() + ")")) << metric;
+  }
   EXPECT_FALSE(wish["metrics"].empty());
 }
 

@@ -11,6 +11,8 @@ function sectionOf(toml, name) {
   });
 }
 
+onLook(() => location.reload());
+
 // ---- the end of every page ----
 // Names for those who hear the page or walk it by keys.
 function nameParts() {

@@ -34,6 +34,7 @@ export function showAnswer(answer) {
   $('level').textContent = `${levels[answer.step]} · ${answer.seconds < 10 ? Math.round(1000 * answer.seconds) + ' ms' : round(answer.seconds) + ' s'}`;
   $('level').title = answer.step === 'first' ? 'Refined while nothing moves; the band says what that may change.' : '';
   showNumbers(r);
+  showValues(r.points);
   showPins();
   showModel(r.plan);
   document.documentElement.dataset.step = answer.step;
@@ -56,6 +57,12 @@ function showNumbers(r) {
   if (margins.length) rows.push(['breakdown margin of the film', round(Math.min(...margins), 3)]);
   r.points.filter((p) => p.status !== 'ok').forEach((p) => rows.push([`at ${Math.round(100 * p.relative_humidity)} %`, p.status]));
   table($('numbers'), null, rows, [1]);
+}
+
+// The curves for those who hear the page, or copy numbers.
+function showValues(points) {
+  const driven = points.some((p) => p.modulation);
+  table($('values'), ['humidity', ...(driven ? ['modulation'] : []), 'drive off', ...(driven ? ['drive on'] : [])], points.map((p) => [`${round(100 * p.relative_humidity)} %`, ...(driven ? [of(p.modulation)] : []), of(p.F_off, 1e3, ' mN'), ...(driven ? [of(p.F_on, 1e3, ' mN')] : [])]), [1, 2, 3]);
 }
 
 const pins = () => state.session ? state.session.pins : [];

@@ -4,8 +4,9 @@ import { axis, charts, draw } from '../plots/charts.js';
 import { drawMap } from '../plots/maps.js';
 import { micrometres, round } from '../plots/numbers.js';
 import { table } from '../plots/tables.js';
-import { people } from './form.js';
+import { called, people } from './form.js';
 import { get, notice, post, upload } from './server.js';
+import { takeable } from './take.js';
 
 const make = (tag, more = {}, ...children) => { const e = Object.assign(document.createElement(tag), more); e.append(...children); return e; };
 const field = (label, input) => make('label', {}, label, input);
@@ -62,7 +63,7 @@ export const saving = { name: '' };  // under which the design at hand goes on
 export function saveDialog(session) {
   const suggestion = session.in_folder ? session.file : session.file.replace(/^study/, 'design');
   const name = make('input', { type: 'text', value: suggestion, autocomplete: 'off' }), [over, overLabel] = check('overwrite a file of that name', session.in_folder);
-  const changed = session.changes.map(([path, text]) => [path, text]);
+  const changed = session.changes.map(([path, text]) => [called(path), people(text)]);
   const rows = make('table');
   table(rows, ['Changed', 'Value'], changed.length ? changed : [['nothing', '']]);
   dialog('Save the design', [field('Name', name), overLabel, rows, make('p', { className: 'note', textContent: session.in_folder ? 'The file keeps its comments; only these values change.' : 'The new file stands on the shipped one and holds the changed keys alone.' })],
@@ -115,6 +116,7 @@ function showScan(box, scan) {
   table(facts, null, [['size', `${round(1e6 * scan.size[0], 4)} × ${round(1e6 * scan.size[1], 4)} µm`], ['pixels', scan.pixels.join(' × ')], ['tilt taken away', round(180 / Math.PI * scan.scan.tilt, 3) + ' °'], ['outliers replaced', String(scan.scan.replaced)], ['filled', String(scan.scan.filled)], ['rms height Sq', nm(a.Sq)], ['mean height Sa', nm(a.Sa)], ['rms slope Sdq', round(a.Sdq, 3)], ['known wavelengths', `${micrometres(scan.band.shortest)} to ${micrometres(scan.band.longest)}`]], [1]);
   const known = (p) => p.x >= 1e6 * scan.band.shortest * 0.999 && p.x <= 1e6 * scan.band.longest * 1.001, points = scan.spectrum.map((p) => ({ x: 1e6 * p.wavelength, y: 1e24 * p.density })).filter((p) => p.y > 0);
   delete charts.spectrum;
+  takeable(spectrum, 'spectrum');
   draw('spectrum', { type: 'line', data: { datasets: [{ label: 'known', data: points.filter(known), borderColor: colours[0], backgroundColor: colours[0], pointRadius: 2 }, { label: 'beyond what the map can know', data: points.filter((p) => !known(p)), showLine: false, borderColor: colours[5], backgroundColor: colours[5], pointRadius: 2 }] }, options: { parsing: false, scales: { x: axis('wavelength [µm]', { type: 'logarithmic' }), y: axis('C(q) [µm⁴]', { type: 'logarithmic' }) } } });
 }
 export function startFiles() {

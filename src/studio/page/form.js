@@ -9,12 +9,12 @@ const first = (k) => k.path.startsWith('texture.') || ['surface.contact_angle', 
 const sections = { texture: 'Texture', surface: 'Surface', drive: 'Drive', finger: 'Finger', counterface: 'Counterface', environment: 'Air', view: 'Look', model: 'Model', accuracy: 'Accuracy' };
 export const called = (path) => path.split('.').slice(1).map((p) => /^\d+$/.test(p) ? String(+p + 1) : p.replace(/_/g, ' ')).join(' ');
 // As people write it: their letters, and no more than five digits of what a search found.
-export const people = (text) => text.replace(/\d+\.\d{3,}/g, (n) => round(+n, 5)).replace(/^([\d.e+-]+) rad$/, (all, n) => `${round(180 / Math.PI * n, 5)} deg`).replace(/\bum\b/g, 'µm').replace(/\bdeg\b/g, '°').replace(/um(\d)/g, 'µm$1');
+export const people = (text) => text.replace(/\d+\.\d{3,}/g, (n) => round(+n, 5)).replace(/(-?\d[\d.e+-]*) rad\b/g, (all, n) => `${round(180 / Math.PI * n, 5)} deg`).replace(/\bum\b/g, 'µm').replace(/\bdeg\b/g, '°').replace(/um(\d)/g, 'µm$1');
 // A comma between digits of a single number is a decimal one.
-const machine = (text) => text.replace(/µm|μm/g, 'um').replace(/°/g, 'deg').replace(/^(\s*-?\d+),(\d+)(?=\s*[a-zA-Z%]*\s*$)/, '$1.$2');
+export const machine = (text) => text.replace(/µm|μm/g, 'um').replace(/°/g, 'deg').replace(/^(\s*-?\d+),(\d+)(?=\s*[a-zA-Z%]*\s*$)/, '$1.$2').trim();
 
 const rows = {};
-let gesture = 1, shape = '';
+let gesture = 1, shape = '', atHand = 0;  // revision of the session that is shown
 
 // ---- sending: the newest position counts, the next goes out when the one before is drawn ----
 const wait = { busy: false, next: null, timer: 0 };
@@ -31,8 +31,9 @@ function send(path, value, time, slider = false) {
   deliver({ path, value, slider, step: gesture, times: [time] });
 }
 // What the server says of a value stands at its row.
-function say(row, text) {
+function say(row, text, revision = atHand) {
   if (!row) return;
+  row.saidAt = revision;
   row.said.textContent = text;
   row.said.hidden = !text;
   row.box.classList.toggle('wrong', Boolean(text));
@@ -45,7 +46,7 @@ async function deliver(change) {
   try {
     const { revision, ends } = await post('set', { path: change.path, value: change.value, step: change.step, slider: change.slider });
     notice('');
-    say(row, ends ? `ends here: ${ends}` : '');
+    say(row, ends ? `ends here: ${people(ends)}` : '', revision);
     if (ends && row) {  // the slider goes back to where the design ends
       row.held = false;
       row.touched = 0;
@@ -54,7 +55,7 @@ async function deliver(change) {
     asked.push({ revision, times: change.times });
     if (latest >= revision) drawn(latest);
   } catch (error) {
-    if (row) say(row, error.message);
+    if (row) say(row, people(error.message));
     else notice(`${called(change.path)}: ${error.message}`);
     release();
   }
@@ -261,6 +262,9 @@ export function showForm(session) {
   const now = session.keys.map((k) => k.path + (k.slider ? ' slider' : '')).join();
   if (shape !== now) rebuild(session.keys);
   shape = now;
+  atHand = session.revision;
+  // What was said was of the design before.
+  Object.values(rows).forEach((row) => { if (!row.said.hidden && atHand > row.saidAt) say(row, ''); });
   session.keys.forEach((k) => { if (rows[k.path]) update(k); });
   [...$('kinds').children].forEach((b) => {
     const chosen = b.dataset.kind === session.kind;

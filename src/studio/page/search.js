@@ -2,15 +2,14 @@
 import { $ } from '../plots/look.js';
 import { charts, draw, errorBars } from '../plots/charts.js';
 import { found, foundChart, foundTable } from '../plots/found.js';
-import { round } from '../plots/numbers.js';
+import { round, withBar } from '../plots/numbers.js';
 import { parallel } from '../plots/parallel.js';
 import { table } from '../plots/tables.js';
-import { called, people } from './form.js';
+import { called, machine, people } from './form.js';
 import { ask, post } from './server.js';
 
 const state = { wish: null, search: null };
 const make = (tag, more = {}) => Object.assign(document.createElement(tag), more);
-const machine = (text) => text.replace(/µm|μm/g, 'um').replace(/°/g, 'deg').trim();
 const summaries = ['mean', 'worst', 'variation', 'range', 'std', 'best', 'first', 'last'];
 
 // ---- the wish ----
@@ -71,6 +70,13 @@ function select(names, value, label) {
   s.setAttribute('aria-label', label);
   return s;
 }
+// What the chosen word means, under the pointer and for those who hear the page.
+function explained(choice, words) {
+  const say = () => { const word = words.find((w) => w.name === choice.value); choice.title = word ? people(word.doc) : ''; };
+  choice.addEventListener('change', say);
+  say();
+  return choice;
+}
 function remover(line, what) {
   const b = make('button', { type: 'button', textContent: '×' });
   b.setAttribute('aria-label', `remove this ${what}`);
@@ -79,12 +85,12 @@ function remover(line, what) {
 }
 function goal(direction, expression) {
   const line = make('div', { className: 'wishline goal' }), m = /^(\w+)\((.*)\)$/.exec(expression) || [0, 'mean', expression];
-  line.append(select(['maximise', 'minimise'], direction, 'direction'), select(summaries, m[1], 'over humidity'), select(state.wish.metrics.map((x) => x.name), m[2], 'metric'), remover(line, 'wish'));
+  line.append(select(['maximise', 'minimise'], direction, 'direction'), select(summaries, m[1], 'over humidity'), explained(select(state.wish.metrics.map((x) => x.name), m[2], 'metric'), state.wish.metrics), remover(line, 'wish'));
   return line;
 }
 function limit({ name, limit: value }) {
   const line = make('div', { className: 'wishline limit' }), known = state.wish.known_limits, word = make('span'), text = make('input', { type: 'text', value: people(value), size: 9 });
-  const choice = select(known.map((k) => k.name), name, 'limit on');
+  const choice = explained(select(known.map((k) => k.name), name, 'limit on'), known);
   const say = () => { const k = known.find((x) => x.name === choice.value); word.textContent = k && !k.at_least ? 'at most' : 'at least'; text.placeholder = k ? people(k.unit) : ''; };
   choice.addEventListener('change', say);
   text.setAttribute('aria-label', 'limit');
@@ -136,7 +142,7 @@ async function run(path, body) {
     showSearch(await post(path, body));
     said('');
   } catch (error) {
-    said((error.problems || []).map((p) => (p.key ? `${p.key}: ` : '') + p.message).join('; ') || error.message);
+    said((error.problems || []).map((p) => (p.key ? `${called(p.key) || p.key}: ` : '') + people(p.message)).join('; ') || error.message);
   }
 }
 const open = (point) => ask('search/pick', point.front ? { front: point.front } : { evaluation: point.evaluation });
@@ -176,8 +182,8 @@ export function showSearch(search) {
   showFront(search);
 }
 // Every design that the search looked at, over all its numbers.
-function showAll(searched, front, search, names) {
-  const wanted = names[1] === 'evaluation' ? names.slice(0, 1) : names, on = new Set(front);
+function showAll(searched, front, search, wanted) {
+  const on = new Set(front);
   const number = (text) => { const m = /^-?[\d.]+(e[-+]?\d+)?(?=\s|$)/i.exec(text); return m ? +m[0] : text; };
   const unit = (i) => { const text = searched.map((p) => p.values[i]).find((v) => v && typeof number(v) === 'number'); return text ? people(text).replace(/^\S+\s?/, '') : ''; };
   $('allbox').hidden = searched.length < 2;
@@ -191,7 +197,7 @@ function showAll(searched, front, search, names) {
   })), open);
 }
 function showFront(search) {
-  const all = found(search), { searched, confirmed, front, names } = all, { sets, scales } = foundChart(all);
+  const all = found(search), { searched, confirmed, front, names, objectives } = all, { sets, scales } = foundChart(all);
   if (charts.pareto && charts.pareto.$names === names.join()) {
     charts.pareto.data.datasets = sets;
     Object.assign(charts.pareto.options.scales.x, scales.x);
@@ -208,17 +214,17 @@ function showFront(search) {
         onHover: (event, items) => { event.native.target.style.cursor = items.length ? 'pointer' : ''; },
         plugins: {
           legend: { labels: { usePointStyle: true, boxHeight: 7 } },
-          tooltip: { callbacks: { label: (item) => [`${round(item.raw.x, 4)}, ${round(item.raw.y, 4)}`].concat(state.search.variables.map((v, i) => `${called(v.path)} ${people(item.raw.values[i])}`)) } },
+          tooltip: { callbacks: { label: (item) => ['x', 'y'].slice(0, objectives.length).map((at, k) => `${objectives[k]} ${item.raw['e' + at] ? withBar(item.raw[at], item.raw['e' + at]) : round(item.raw[at], 4)}`).concat(state.search.variables.map((v, i) => `${called(v.path)} ${people(item.raw.values[i])}`)) } },
         },
       },
     });
     charts.pareto.$names = names.join();
   }
   $('fronthint').textContent = searched.length ? (confirmed.length ? 'Bars: ± one standard error. Points of the search are of a cheaper level: compare them with each other only. ' : 'Searched at a cheap level: the finalists are confirmed at the end. ') + 'Select a point, or Open, to make it the design at hand.' : 'The first designs are on their way.';
-  showAll(searched, front, search, names);
+  showAll(searched, front, search, objectives);
   // The same by keys and for those who hear the page.
   const list = confirmed.length ? confirmed : front;
-  const shown = foundTable(list, names, search.variables.map((v) => called(v.path)), people);
+  const shown = foundTable(list, objectives, search.variables.map((v) => called(v.path)), people);
   const body = table($('frontlist'), [''].concat(shown.head), shown.rows.map((r) => [''].concat(r)));
   list.forEach((p, i) => {
     const button = make('button', { type: 'button', textContent: 'Open' });

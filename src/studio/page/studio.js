@@ -1,6 +1,6 @@
 // The studio: what the server tells goes to the parts of the page, what the hand does goes back.
-import { $ } from '../plots/look.js';
-import { charts } from '../plots/charts.js';
+import { $, onLook } from '../plots/look.js';
+import { charts, dropCharts } from '../plots/charts.js';
 import { drawn, latency, showForm, showKinds, showSlopes, startFilter, startSlopes } from './form.js';
 import { showAnswer, showSessionPins } from './answer.js';
 import { exportDialog, historyDialog, openDialog, saveDialog, saving, startFiles, state } from './files.js';
@@ -71,7 +71,7 @@ async function begin() {
   startFilter();
   startSlopes();
   toolbar();
-  [['modulation', 'modulation'], ['friction', 'friction'], ['section', 'section'], ['pareto', 'designs'], ['decisions', 'decisions']].forEach(([id, name]) => takeable(id, name));
+  [['modulation', 'modulation'], ['friction', 'friction'], ['section', 'section'], ['pareto', 'designs'], ['decisions', 'decisions']].forEach(([id, name]) => takeable($(id), name));
   const all = await state();
   $('version').textContent = all.version;
   startWords(all.words);
@@ -80,16 +80,19 @@ async function begin() {
   showWish(all.wish);
   showSearch(all.search);
   showLab(all.lab);
+  // What has charts is kept, to be drawn again in other colours.
+  const last = {}, kept = (topic, show) => (what) => { last[topic] = () => show(what); show(what); };
+  onLook(() => { dropCharts(); Object.values(last).forEach((again) => again()); });
   listen({
-    session: showSession,
-    shape: showShape,
-    response: told,
+    session: kept('session', showSession),
+    shape: kept('shape', showShape),
+    response: kept('response', told),
     look: showLook,
     refinement,
     slopes: showSlopes,
-    search: showSearch,
-    lab: showLab,
-    notice: (n) => notice(n.error),
+    search: kept('search', showSearch),
+    lab: kept('lab', showLab),
+    notice: (n) => { if (!session || !(n.revision < session.revision)) notice(n.error); },  // of the design at hand
   }, (on) => {
     document.documentElement.dataset.connected = on;
     if (!on) $('status').textContent = 'the studio does not answer; trying again …';

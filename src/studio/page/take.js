@@ -16,8 +16,9 @@ export function csvOf(chart) {
   const rows = chart.data.datasets.filter((set) => !set.band).flatMap((set) => set.data.map((p) => [set.label, p.x, p.y, p.ex || '', p.se || p.ey || '']));
   return [head, ...rows].map((row) => row.map((v) => cell(String(v))).join(',')).join('\n') + '\n';
 }
-// Buttons above a chart; name: of the files.
-export function takeable(id, name) {
+// Buttons above the chart of a canvas; name: of the files.
+export function takeable(canvas, name) {
+  const id = canvas.id;
   const box = document.createElement('div');
   box.className = 'take';
   [['CSV', () => give(`${name}.csv`, csvOf(charts[id]), 'text/csv')], ['PNG', () => give(`${name}.png`, charts[id].toBase64Image(), '')], ['SVG', () => give(`${name}.svg`, svgOf(charts[id]), 'image/svg+xml')]].forEach(([text, work]) => {
@@ -28,7 +29,7 @@ export function takeable(id, name) {
     button.addEventListener('click', () => charts[id] && work());
     box.append(button);
   });
-  document.getElementById(id).closest('figure').before(box);
+  canvas.closest('figure').before(box);
 }
 
 // The page as it stands: pictures in place of canvases, its styles inside, nothing that acts.

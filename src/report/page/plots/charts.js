@@ -1,10 +1,24 @@
 // What every chart has: axes, error bars, room for them.
 import { $, ink } from './look.js';
+import { round } from './numbers.js';
 export const charts = {};
 Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
 Chart.defaults.font.size = 13;
-Chart.defaults.color = ink('soft');
-Chart.defaults.borderColor = ink('line');
+function takeInks() {
+  Chart.defaults.color = ink('soft');
+  Chart.defaults.borderColor = ink('line');
+}
+takeInks();
+// In other colours every chart is drawn anew.
+export function dropCharts() {
+  takeInks();
+  Object.keys(charts).forEach((id) => { charts[id].destroy(); delete charts[id]; });
+}
+// Numbers of an axis as everywhere: Chart.js would say 0.0000000001.
+const ticksOf = (scale) => Chart.defaults.scales[scale].ticks;
+const logarithmic = ticksOf('logarithmic').callback;
+ticksOf('linear').callback = (value) => round(value, 6);
+ticksOf('logarithmic').callback = function (value, ...more) { return logarithmic.call(this, value, ...more) === '' ? '' : round(value, 6); };
 Chart.defaults.animation = false;
 Chart.defaults.maintainAspectRatio = false;
 export const axis = (text, more = {}) => Object.assign({ title: { display: true, text } }, more);

@@ -2,21 +2,26 @@
 import { colours, faint } from './look.js';
 import { around, axis } from './charts.js';
 import { entry, round } from './numbers.js';
-// { searched, confirmed, front, names }: points with x, y, the texts of their variables; names of the two axes.
+const leading = (text) => { const m = /^-?[\d.]+(e[-+]?\d+)?(?=\s|$)/i.exec(text || ''); return m ? +m[0] : null; };
+// { searched, confirmed, front, names, objectives }: points with x, y, the texts of their variables; names of the two axes, and
+// those that are wanted. A single objective is shown over the first number that the search varies.
 export function found(search) {
-  const [x, y] = search.objectives.map((o) => o.name), second = y || 'worst modulation', on = new Set(search.front);
+  const [x, y] = search.objectives.map((o) => o.name), on = new Set(search.front);
+  const first = search.variables.findIndex((v, i) => search.points.some((p) => leading(p.values[i]) !== null)), over = search.variables[first];
+  const shown = over && over.path.replace(/^[a-z]+\./, '').replace(/[._]/g, ' ') + (over.unit ? ` [${over.unit.replace(/^um$/, 'µm').replace(/^deg$/, '°')}]` : '');
+  const second = (p, i) => y ? p.objectives[1] : over ? leading(p.values[first]) : i + 1;
   const known = (p) => p.x !== null && p.x !== undefined && p.y !== null && p.y !== undefined;
-  const searched = search.points.map((p, i) => ({ x: p.objectives[0], y: y ? p.objectives[1] : i + 1, evaluation: i, ok: p.ok && p.feasible, values: p.values })).filter(known);
-  const confirmed = search.confirmed.filter((r) => r['on front'] === 'yes' && r[x] !== '').map((r) => ({ x: +r[x], y: +r[second], ex: +r[x + ' se'] || 0, ey: +r[second + ' se'] || 0, front: r.design, doubts: r['p(best)'] ? [round(100 * r['p(best)'], 3) + ' %', round(+r['expected regret'], 2), round(100 * r['p(every limit)'], 3) + ' %'] : [], values: search.variables.map((v) => `${entry(r[v.path + (v.unit ? ` [${v.unit}]` : '')])} ${v.unit}`) })).sort((a, b) => a.x - b.x);
+  const searched = search.points.map((p, i) => ({ x: p.objectives[0], y: second(p, i), evaluation: i, ok: p.ok && p.feasible, values: p.values })).filter(known);
+  const confirmed = search.confirmed.filter((r) => r['on front'] === 'yes' && r[x] !== '').map((r) => ({ x: +r[x], y: y ? +r[y] : over ? leading(r[over.path + (over.unit ? ` [${over.unit}]` : '')]) : 0, ex: +r[x + ' se'] || 0, ey: y ? +r[y + ' se'] || 0 : 0, front: r.design, doubts: r['p(best)'] ? [round(100 * r['p(best)'], 3) + ' %', round(+r['expected regret'], 2), round(100 * r['p(every limit)'], 3) + ' %'] : [], values: search.variables.map((v) => `${entry(r[v.path + (v.unit ? ` [${v.unit}]` : '')])} ${v.unit}`) })).sort((a, b) => a.x - b.x);
   const front = searched.filter((p) => on.has(p.evaluation)).sort((a, b) => a.x - b.x);
-  return { searched, confirmed, front, names: [x, y || 'evaluation'] };
+  return { searched, confirmed, front, names: [x, y || shown || 'evaluation'], objectives: y ? [x, y] : [x] };
 }
 // The chart of that: its datasets and its axes.
-export function foundChart({ searched, confirmed, front, names }) {
+export function foundChart({ searched, confirmed, front, names, objectives }) {
   const line = { borderWidth: 1.5, pointHoverRadius: 8 }, on = new Set(front);
   const best = confirmed.length
-    ? Object.assign({ label: 'front, confirmed', data: confirmed, bars: true, showLine: true, pointRadius: 6, borderColor: colours[1], backgroundColor: colours[1] }, line)
-    : Object.assign({ label: 'front so far', data: front, showLine: names[1] !== 'evaluation', pointRadius: 5.5, borderColor: colours[0], backgroundColor: colours[0] }, line);
+    ? Object.assign({ label: 'front, confirmed', data: confirmed, bars: true, showLine: objectives.length > 1, pointRadius: 6, borderColor: colours[1], backgroundColor: colours[1] }, line)
+    : Object.assign({ label: 'front so far', data: front, showLine: objectives.length > 1, pointRadius: 5.5, borderColor: colours[0], backgroundColor: colours[0] }, line);
   const sets = [
     best,
     { label: 'searched', data: searched.filter((p) => p.ok && (confirmed.length || !on.has(p))), pointRadius: 3, borderColor: faint.searched, backgroundColor: faint.searched },
@@ -26,8 +31,7 @@ export function foundChart({ searched, confirmed, front, names }) {
   return { sets, scales: { x: axis(names[0], around(all, 'x', 'ex')), y: axis(names[1], around(all, 'y', 'ey')) } };
 }
 // Head and rows of the table of a front; value: how a variable is shown.
-export function foundTable(list, names, variables, value) {
-  const objectives = names[1] === 'evaluation' ? names.slice(0, 1) : names;
+export function foundTable(list, objectives, variables, value) {
   // By belief, where the fingers name one.
   const doubts = list.some((p) => (p.doubts || []).length) ? ['p(best)', 'expected regret', 'p(every limit)'] : [];
   return { head: objectives.concat(doubts, variables), rows: list.map((p) => [p.x, p.y].slice(0, objectives.length).map((v) => round(v, 3)).concat(doubts.length ? p.doubts : [], p.values.map(value))) };

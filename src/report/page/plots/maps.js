@@ -1,6 +1,6 @@
 // Pictures of maps: colours, scale bar, range.
 import { ink } from './look.js';
-import { micrometres, round, roundLength } from './numbers.js';
+import { level, micrometres, round, roundLength } from './numbers.js';
 // Five anchors of a perceptually even scale, dark to bright.
 export const anchors = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
 export function colour(t) {
@@ -56,15 +56,16 @@ export function drawMap(canvas, map, unit, scale, line, root) {
   }
   c.fillStyle = ink('ink');
   c.textAlign = 'left';
-  c.fillText(round(map.low * scale), side - 172, height + 38);
+  const most = Math.max(Math.abs(map.low), Math.abs(map.high)), said = (v) => round(level(v, most) * scale);
+  c.fillText(said(map.low), side - 172, height + 38);
   c.textAlign = 'right';
-  c.fillText(round(map.high * scale) + ' ' + unit, side - 2, height + 38);
+  c.fillText(said(map.high) + ' ' + unit, side - 2, height + 38);
   c.textAlign = 'left';
   canvas.onmousemove = (event) => {
     const x = Math.floor(event.offsetX / canvas.clientWidth * map.nx);
     const y = Math.floor(event.offsetY / canvas.clientHeight * canvas.height / height * map.ny);
     canvas.title = x >= 0 && x < map.nx && y >= 0 && y < map.ny
-      ? `${round(values[y * map.nx + x] * scale)} ${unit} at ${micrometres((x + 0.5) * map.lx / map.nx)}, ${micrometres((y + 0.5) * map.ly / map.ny)}` : '';
+      ? `${said(values[y * map.nx + x])} ${unit} at ${micrometres((x + 0.5) * map.lx / map.nx)}, ${micrometres((y + 0.5) * map.ly / map.ny)}` : '';
   };
 }
 // Each map as a figure with its name.
@@ -85,11 +86,13 @@ export function mapFigures(box, maps) {
 export function sectionRow(map, section) {
   if (section) return Math.min(map.ny - 1, Math.floor(section.at * map.ny));
   const values = decode(map);
+  // Rows through like features are equal but for rounding: the first of them, so that the line stays as the design moves.
+  const alike = 1e-6 * map.nx * (map.high - map.low);
   let row = 0, low = Infinity;
   for (let y = 0; y < map.ny; ++y) {
     let sum = 0;
     for (let x = 0; x < map.nx; ++x) sum += values[y * map.nx + x];
-    if (sum < low - 1e-15) [row, low] = [y, sum];
+    if (sum < low - alike) [row, low] = [y, sum];
   }
   return row;
 }

@@ -1,5 +1,7 @@
 // Numbers as people read them.
 export const round = (v, digits = 3) => v === null || v === undefined || !isFinite(v) ? '–' : String(+v.toPrecision(digits) + 0);
+// Zero but for rounding beside the most of a map.
+export const level = (v, most) => Math.abs(v) < 1e-6 * most ? 0 : v;
 // Of a table's cell; kinds of texture and other choices are words.
 export const entry = (text) => text === '' || Number.isNaN(+text) ? text : round(+text);
 // "640 ± 130": both as far as the second digit of the error.
