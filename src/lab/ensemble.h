@@ -11,8 +11,9 @@
 namespace papilla::lab {
 
 // What the model's own few skins leave open of a number, the same at all members: deviations that
-// sum by squares to its variance, one of each skin. Numbers of the same skins vary together, so
-// the ratio of friction on and off is known better than either.
+// sum by squares to its variance, of the skins of the design's own level and of those that each
+// member is moved on. Numbers of the same skins vary together, so the ratio of friction on and off
+// is known better than either. Eq. lab.3
 struct Sampling {
   std::string skins;  // which: numbers of other skins are independent
   std::vector<double> deviations;

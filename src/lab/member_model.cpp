@@ -32,8 +32,8 @@ std::vector<double> read_numbers(const std::string& text) {
   }
 }
 
-// More than `belief_fidelity` has: a reading parts designs by a few percent, as much as moves on
-// two skins scatter (docs/measured/lab.md).
+// More than `belief_fidelity` has: readings part designs by a few percent, which moves on two skins
+// scatter by.
 constexpr int kMemberSkins = 8;
 
 // The design by its own finger at its own level, by its own finger as members are run, and by each
@@ -102,7 +102,8 @@ double moved_off(const Points& own, const Points& few, const Points& member) {
                member.front().friction_off.value, true);
 }
 
-// By what the voltage adds: nearer to an evaluation of the member than the force in proportion.
+// By what the voltage adds, which lies nearer to an evaluation of the member than the force in
+// proportion. Eq. lab.15
 double moved_on(const Points& own, const Points& few, const Points& member) {
   if (!own.front().knows_driven() || !member.front().knows_driven()) return std::nan("");
   const auto gain = [](const Points& points) {

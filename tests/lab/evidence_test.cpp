@@ -68,6 +68,20 @@ TEST(Evidence, GivesTheWeightsOfTheDensityOfAllReadingsTogether) {
   for (std::size_t m = 0; m < 12; ++m) EXPECT_NEAR(weights[m], expected[m] / sum, 1e-10);
 }
 
+struct MeanAndSpread {
+  double mean = 0, spread = 0;
+};
+// Of the worth of the first design, after the readings.
+MeanAndSpread first_worth(const Ensemble& e, const Kernels& k, const Evidence& evidence) {
+  const WorthAfter after = worth_after(e, k, evidence);
+  double mean = 0, squares = 0;
+  for (std::size_t i = 0; i < after.weights.size(); ++i) {
+    mean += after.weights[i] * after.worth[0][i];
+    squares += after.weights[i] * after.worth[0][i] * after.worth[0][i];
+  }
+  return {mean, std::sqrt(squares - mean * mean)};
+}
+
 // Of a linear model the posterior is known: mean and variance of the worth.
 TEST(Evidence, MovesWorthAsALinearModelDoes) {
   const Ensemble e = linear_ensemble(3000, {{1.0}}, {{2.0}, {0.0}});
@@ -75,15 +89,10 @@ TEST(Evidence, MovesWorthAsALinearModelDoes) {
   const Instrument instrument = plain_instrument(0.5);
   Evidence evidence(e, k, instrument);
   evidence.add(observation(0, 0.5), 0.8);
-  const WorthAfter after = worth_after(e, k, evidence);
-  double mean = 0, squares = 0;
-  for (std::size_t i = 0; i < after.weights.size(); ++i) {
-    mean += after.weights[i] * after.worth[0][i];
-    squares += after.weights[i] * after.worth[0][i] * after.worth[0][i];
-  }
+  const auto [mean, spread] = first_worth(e, k, evidence);
   // x ~ N(0, 1), y = x + N(0, .25): mean 0.8 / 1.25, variance 0.25 / 1.25; worth 2 x.
   EXPECT_NEAR(mean, 2 * 0.64, 0.03);
-  EXPECT_NEAR(std::sqrt(squares - mean * mean), 2 * std::sqrt(0.2), 0.03);
+  EXPECT_NEAR(spread, 2 * std::sqrt(0.2), 0.03);
 }
 
 // Members agree on everything; the skins leave friction open, and worth with it: a normal number s
@@ -98,15 +107,10 @@ TEST(Evidence, MovesWorthByWhatSkinsLeaveOpenOfBoth) {
   Evidence evidence(e, k, instrument);
   evidence.add(observation(0, 0.1), 0.0);
   evidence.add(observation(1, 0.1), 0.25);
-  const WorthAfter after = worth_after(e, k, evidence);
-  double mean = 0, squares = 0;
-  for (std::size_t i = 0; i < after.weights.size(); ++i) {
-    mean += after.weights[i] * after.worth[0][i];
-    squares += after.weights[i] * after.worth[0][i] * after.worth[0][i];
-  }
+  const auto [mean, spread] = first_worth(e, k, evidence);
   const double left = 1 / (1 + 0.09 / 0.02);  // of the variance of s
   EXPECT_NEAR(mean, 2 * left * 0.3 * 0.25 / 0.02, 1e-3);
-  EXPECT_NEAR(std::sqrt(squares - mean * mean), 2 * std::sqrt(left), 0.1);
+  EXPECT_NEAR(spread, 2 * std::sqrt(left), 0.1);
 }
 
 TEST(Evidence, OfTwoReadingsOnADayKnowsTheirRatioBest) {
@@ -119,13 +123,7 @@ TEST(Evidence, OfTwoReadingsOnADayKnowsTheirRatioBest) {
     Observation second = observation(1, 0.02, 1);
     second.day = second_day;
     evidence.add(second, 0.2);
-    const WorthAfter after = worth_after(e, k, evidence);
-    double mean = 0, squares = 0;
-    for (std::size_t i = 0; i < after.weights.size(); ++i) {
-      mean += after.weights[i] * after.worth[0][i];
-      squares += after.weights[i] * after.worth[0][i] * after.worth[0][i];
-    }
-    return std::sqrt(squares - mean * mean);
+    return first_worth(e, k, evidence).spread;
   };
   EXPECT_LT(spread("1"), 0.25 * spread("2"));
 }
