@@ -1,6 +1,6 @@
 // Planted truths: how many measurements find the right hypothesis, halve the interval of a decision
-// and find an error of the model; by chosen experiments, by D-optimal ones and by a grid. Markdown
-// on standard output.
+// and find an error of the model; by chosen experiments, by D-optimal ones and by a grid, and how
+// few any plan could take. Markdown on standard output.
 //   lab_bench FOLDER [MEMBERS TRUTHS]
 //                    FOLDER keeps what the model has answered; MEMBERS are drawn about the
 //                    reference finger, TRUTHS anew and evaluated each by itself at the designs' own
@@ -24,6 +24,7 @@
 #include "config/writer.h"
 #include "estimate/belief.h"
 #include "forward/forward.h"
+#include "lab/evidence.h"
 #include "lab/planning.h"
 #include "numerics/statistics.h"
 #include "optim/unfinished.h"
@@ -216,8 +217,9 @@ void judge_moves(const World& w, const Belief& truths, const std::string& folder
 
 // How widely belief spreads the differences that decide: the root of the mean square of the 95 %
 // intervals of a design's worth less that of the design chosen at first.
-double width(const Standing& s, std::size_t first, const std::vector<double>& p_first) {
-  const WorthAfter after = worth_after(s.ensemble, s.kernels, *s.evidence);
+double width(const Standing& s, const Evidence& evidence, std::size_t first,
+             const std::vector<double>& p_first) {
+  const WorthAfter after = worth_after(s.ensemble, s.kernels, evidence);
   double sum = 0, weight = 0;
   for (std::size_t d = 0; d < after.worth.size(); ++d) {
     if (d == first) continue;
@@ -233,10 +235,24 @@ double width(const Standing& s, std::size_t first, const std::vector<double>& p_
 
 enum class Plan { Decision, Hypotheses, DOptimal, Grid };
 
+// Before any reading.
+struct Start {
+  std::unique_ptr<Standing> standing;
+  std::vector<double> p_best;
+  double width = 0;
+};
+
+Start start_of(const World& w) {
+  Start out{stand(w, {}), {}, 0};
+  for (const Prospect& p : out.standing->prospects) out.p_best.push_back(p.p_best);
+  out.width = width(*out.standing, *out.standing->evidence, out.standing->best, out.p_best);
+  return out;
+}
+
 // After some touches.
 struct Mark {
   int touches = 0;
-  double seconds = 0, width = 0, p_right = 0;
+  double seconds = 0, p_right = 0;
   double loss = 0, expected_loss = 0;  // of the choice, shares: by the truth, by the lab itself
   bool right = false;
 };
@@ -281,24 +297,31 @@ double cost(const World& w, const std::vector<Experiment>& batch) {
   return seconds_of(candidates, all, w.file.costs);
 }
 
-std::vector<Mark> run(const World& w, std::size_t truth, Plan plan) {
+// When the width is half of the first, to a touch; infinite: never.
+struct Halved {
+  double touches = INFINITY, seconds = INFINITY;
+};
+
+struct Course {
+  std::vector<Mark> marks;  // after each day
+  Halved halved;
+};
+
+Course run(const World& w, const Start& start, std::size_t truth, Plan plan) {
   Bench bench(w, truth, truth * 10);
   std::vector<FrictionReading> readings;
-  std::vector<Mark> out;
+  Course out;
   auto s = stand(w, readings);
-  const std::size_t first = s->best;
-  std::vector<double> p_first;
-  for (const Prospect& p : s->prospects) p_first.push_back(p.p_best);
   double seconds = 0;
   const auto mark = [&] {
     double best = -1e9;
     for (const auto& of : w.truth_worth) best = std::max(best, of[truth]);
     const std::size_t right = truth % kHypotheses.size();
     const auto heaviest = std::max_element(s->p_hypothesis.begin(), s->p_hypothesis.end());
-    out.push_back({static_cast<int>(readings.size()), seconds, width(*s, first, p_first),
-                   s->p_hypothesis[right], (best - w.truth_worth[s->best][truth]) / best,
-                   s->prospects[s->best].regret / s->best_worth,
-                   static_cast<std::size_t>(heaviest - s->p_hypothesis.begin()) == right});
+    out.marks.push_back({static_cast<int>(readings.size()), seconds, s->p_hypothesis[right],
+                         (best - w.truth_worth[s->best][truth]) / best,
+                         s->prospects[s->best].regret / s->best_worth,
+                         static_cast<std::size_t>(heaviest - s->p_hypothesis.begin()) == right});
   };
   mark();
   for (int day = 1; static_cast<int>(readings.size()) < kMost; ++day) {
@@ -306,28 +329,20 @@ std::vector<Mark> run(const World& w, std::size_t truth, Plan plan) {
     const std::vector<Experiment> batch =
         batch_of(w, *s, plan, static_cast<int>(readings.size()), day);
     if (batch.empty()) break;
+    std::vector<Experiment> done;
+    for (const Experiment& e : batch) {
+      readings.push_back(bench.measure(e, day));
+      done.push_back(e);
+      if (!std::isinf(out.halved.touches)) continue;
+      const auto now = stand(w, readings);
+      if (width(*now, *now->evidence, start.standing->best, start.p_best) <= start.width / 2)
+        out.halved = {static_cast<double>(readings.size()), seconds + cost(w, done)};
+    }
     seconds += cost(w, batch);
-    for (const Experiment& e : batch) readings.push_back(bench.measure(e, day));
     s = stand(w, readings);
     mark();
   }
   return out;
-}
-
-// When the width is half of the first, between rounds by its logarithm; infinite: never.
-struct Halved {
-  double touches = INFINITY, seconds = INFINITY;
-};
-Halved halved(const std::vector<Mark>& marks) {
-  for (std::size_t k = 1; k < marks.size(); ++k) {
-    const double goal = std::log(marks.front().width / 2), a = std::log(marks[k - 1].width),
-                 b = std::log(marks[k].width);
-    if (b > goal) continue;
-    const double share = a > b ? std::clamp((a - goal) / (a - b), 0.0, 1.0) : 1;
-    return {marks[k - 1].touches + share * (marks[k].touches - marks[k - 1].touches),
-            marks[k - 1].seconds + share * (marks[k].seconds - marks[k - 1].seconds)};
-  }
-  return {};
 }
 
 double median(std::vector<double> v) {
@@ -352,7 +367,7 @@ double touches_to_small_loss(const std::vector<std::vector<Mark>>& of_truths) {
   return out;
 }
 
-void judge_plans(const World& w, std::size_t truths) {
+void judge_plans(const World& w, const Start& start, std::size_t truths) {
   fmt::print(
       "| plan | truths whose interval was halved within 30 touches | median touches to half | "
       "median "
@@ -368,8 +383,9 @@ void judge_plans(const World& w, std::size_t truths) {
     int within = 0, right = 0;
     double before = 0, after = 0, expected = 0;
     for (std::size_t t = 0; t < truths; ++t) {
-      const std::vector<Mark>& marks = all.emplace_back(run(w, t, plan));
-      const Halved h = halved(marks);
+      const Course course = run(w, start, t, plan);
+      const std::vector<Mark>& marks = all.emplace_back(course.marks);
+      const Halved& h = course.halved;
       touches.push_back(h.touches);
       hours.push_back(h.seconds / 3600);
       within += h.touches <= kWanted;
@@ -380,7 +396,7 @@ void judge_plans(const World& w, std::size_t truths) {
       after += marks[k].loss / static_cast<double>(truths);
       expected += marks[k].expected_loss / static_cast<double>(truths);
       fmt::print(stderr,
-                 "{} {}: half at {:.1f} touches {:.1f} h, p right {:.3f}, loss {:.3f} -> "
+                 "{} {}: half at {:.0f} touches {:.1f} h, p right {:.3f}, loss {:.3f} -> "
                  "{:.3f}\n",
                  name, t, h.touches, h.seconds / 3600, marks[k].p_right, marks.front().loss,
                  marks[k].loss);
@@ -391,6 +407,84 @@ void judge_plans(const World& w, std::size_t truths) {
         name, within, truths, median(touches), median(hours), right, truths, 100 * before,
         100 * after, 100 * expected,
         std::isinf(small) ? fmt::format("not within {}", kMost) : fmt::format("{:.0f}", small));
+  }
+}
+
+// The width that a truth's readings of some experiments leave, of the first.
+class Touched {
+ public:
+  Touched(const World& world, const Start& start) : world_(world), start_(start) {}
+
+  double operator()(std::size_t truth, const std::vector<std::size_t>& experiments) const {
+    const Standing& s = *start_.standing;
+    const Instrument& instrument = world_.file.instrument;
+    Bench bench(world_, truth, truth * 10);
+    bench.next_day();
+    Evidence evidence(s.ensemble, s.kernels, instrument);
+    for (const std::size_t e : experiments) {
+      const FrictionReading r = bench.measure(world_.experiments[e], 1);
+      const MeasurableCell& cell = world_.table->cell(r.experiment);
+      for (const Observation& o :
+           observations_of(*world_.table, r.experiment, instrument, 0, 0, r.finger, r.day))
+        evidence.add(o, std::log(cell.on && o.row == *cell.on ? r.on : r.off));
+    }
+    return width(s, evidence, s.best, start_.p_best) / start_.width;
+  }
+
+ private:
+  const World& world_;
+  const Start& start_;
+};
+
+// What no plan can beat: all sets of so many touches, told to all truths; of them the one that
+// halves most truths, and the truths that any of them halves, chosen for each when its readings
+// are known. Sets of more than two grow from the best hundred of one less.
+void judge_least(const World& w, const Start& start, std::size_t truths) {
+  constexpr int kTouches = 4;
+  constexpr std::size_t kKept = 100;
+  fmt::print(
+      "\n| touches | sets tried | truths halved by the set that halves most | truths halved by "
+      "some "
+      "set, chosen for each with its readings known |\n|---|---|---|---|\n");
+  const Touched touched(w, start);
+  std::vector<std::vector<std::size_t>> sets{{}};
+  for (int touches = 1; touches <= kTouches; ++touches) {
+    std::vector<std::vector<std::size_t>> wider;
+    for (const std::vector<std::size_t>& set : sets) {
+      for (std::size_t e = touches == 2 ? set.back() : 0; e < w.experiments.size(); ++e) {
+        wider.push_back(set);
+        wider.back().push_back(e);
+      }
+    }
+    std::vector<std::vector<double>> widths(wider.size(), std::vector<double>(truths));
+    parallel_for(
+        static_cast<int>(wider.size()),
+        [&](int i) {
+          const auto k = static_cast<std::size_t>(i);
+          for (std::size_t t = 0; t < truths; ++t) widths[k][t] = touched(t, wider[k]);
+        },
+        0);
+    std::size_t most = 0, some = 0;
+    std::vector<double> least(truths, INFINITY);
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t k = 0; k < wider.size(); ++k) {
+      std::size_t halved = 0;
+      double sum = 0;
+      for (std::size_t t = 0; t < truths; ++t) {
+        halved += widths[k][t] <= 0.5;
+        least[t] = std::min(least[t], widths[k][t]);
+        sum += std::log(widths[k][t]);
+      }
+      most = std::max(most, halved);
+      order.push_back({sum, k});
+    }
+    for (const double width : least) some += width <= 0.5;
+    fmt::print("| {} | {} | {} of {} | {} of {} |\n", touches, wider.size(), most, truths, some,
+               truths);
+    std::sort(order.begin(), order.end());
+    sets.clear();
+    const std::size_t kept = touches == 1 ? order.size() : std::min(kKept, order.size());
+    for (std::size_t k = 0; k < kept; ++k) sets.push_back(wider[order[k].second]);
   }
 }
 
@@ -448,7 +542,9 @@ int main(int argc, char** argv) {
     const int members = argc > 2 ? std::atoi(argv[2]) : 80,
               truths = argc > 3 ? std::atoi(argv[3]) : 20;
     const World w = make_world(argv[1], members, truths);
-    judge_plans(w, static_cast<std::size_t>(truths));
+    const Start start = start_of(w);
+    judge_plans(w, start, static_cast<std::size_t>(truths));
+    judge_least(w, start, static_cast<std::size_t>(truths));
     judge_discrepancy(w, static_cast<std::size_t>(truths));
     judge_moves(w, drawn(w.designs.front().design.finger, truths, "lab truths"), argv[1]);
   } catch (const InputError& error) {

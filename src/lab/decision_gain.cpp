@@ -60,8 +60,8 @@ DecisionGain::DecisionGain(const Ensemble& ensemble, const Kernels& kernels, con
   for (const std::size_t t : truths(weights, draws))
     state_.futures.push_back({t, logs, std::vector<double>(kernels.worth.size(), 0), {}, {}});
   for (std::size_t d = 0; d < kernels.worth.size(); ++d) {
-    double own = kernels.worth_covariance_of(d, d) - 2 * kernels.worth_covariance_of(d, choice_) +
-                 kernels.worth_covariance_of(choice_, choice_);
+    const auto& of = kernels.of_worth;
+    double own = of[d][d] - 2 * of[d][choice_] + of[choice_][choice_];
     for (std::size_t k = 0; k < sofar.size(); ++k) {
       own -= square(sofar.gain(d, k) - sofar.gain(choice_, k));
       for (std::size_t m = 0; m < weights.size(); ++m)

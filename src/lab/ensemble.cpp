@@ -71,6 +71,17 @@ double dimensions(const Rows& moves) {
   return squares > 0 ? square(trace) / squares : 1;
 }
 
+// [of a][of b]; share: of the moves that is a kernel's own.
+Rows covariances(const Rows& a_moves, const std::vector<Sampling>& a, const Rows& b_moves,
+                 const std::vector<Sampling>& b, double share) {
+  Rows out(a.size(), std::vector<double>(b.size()));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j)
+      out[i][j] = share * dot(a_moves[i], b_moves[j]) + covariance(a[i], b[j]);
+  }
+  return out;
+}
+
 }  // namespace
 
 double covariance(const Sampling& a, const Sampling& b) {
@@ -84,21 +95,6 @@ std::vector<double> weights_by_hypothesis(const Ensemble& e, const std::vector<d
   return out;
 }
 
-double Kernels::covariance(std::size_t row, std::size_t other) const {
-  return square(width) * dot(response_moves[row], response_moves[other]) +
-         lab::covariance(response_sampling[row], response_sampling[other]);
-}
-
-double Kernels::worth_covariance(std::size_t design, std::size_t row) const {
-  return square(width) * dot(worth_moves[design], response_moves[row]) +
-         lab::covariance(worth_sampling[design], response_sampling[row]);
-}
-
-double Kernels::worth_covariance_of(std::size_t design, std::size_t other) const {
-  return square(width) * dot(worth_moves[design], worth_moves[other]) +
-         lab::covariance(worth_sampling[design], worth_sampling[other]);
-}
-
 Kernels kernels_of(const Ensemble& e) {
   PAPILLA_CHECK(!e.weights.empty() && e.hypothesis.size() == e.weights.size(), "members");
   PAPILLA_CHECK(
@@ -108,8 +104,6 @@ Kernels kernels_of(const Ensemble& e) {
   Kernels out;
   out.response_moves = rooted(e, responses);
   out.worth_moves = rooted(e, worth);
-  out.response_sampling = e.response_sampling;
-  out.worth_sampling = e.worth_sampling;
   // Silverman 1986, Eq. 4.14, of the effective number of members.
   const double d = dimensions(out.response_moves);
   const double width = std::pow(4 / ((d + 2) * effective_number(e.weights)), 1 / (d + 4));
@@ -117,6 +111,13 @@ Kernels kernels_of(const Ensemble& e) {
   out.shrink = std::sqrt(1 - square(out.width));  // Eq. lab.3 (West 1993)
   out.responses = drawn_in(e.responses, responses, out.shrink);
   out.worth = drawn_in(e.worth, worth, out.shrink);
+  const double share = square(out.width);
+  out.of_responses = covariances(out.response_moves, e.response_sampling, out.response_moves,
+                                 e.response_sampling, share);
+  out.of_worth_and_responses = covariances(out.worth_moves, e.worth_sampling, out.response_moves,
+                                           e.response_sampling, share);
+  out.of_worth =
+      covariances(out.worth_moves, e.worth_sampling, out.worth_moves, e.worth_sampling, share);
   return out;
 }
 

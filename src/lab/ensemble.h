@@ -46,14 +46,9 @@ struct Kernels {
   // [row or design][member]: root of the weight times the deviation, so that the covariance of two
   // rows is the sum of products.
   std::vector<std::vector<double>> response_moves, worth_moves;
-
-  std::vector<Sampling> response_sampling, worth_sampling;
-
-  // What a member leaves open of two rows, of the worth of a design and a row, of the worth of two
-  // designs: by its kernel and by the model's few skins.
-  double covariance(std::size_t row, std::size_t other) const;
-  double worth_covariance(std::size_t design, std::size_t row) const;
-  double worth_covariance_of(std::size_t design, std::size_t other) const;
+  // What a member leaves open, by its kernel and by the model's few skins: covariances [row][row],
+  // [design][row], [design][design].
+  std::vector<std::vector<double>> of_responses, of_worth_and_responses, of_worth;
 };
 Kernels kernels_of(const Ensemble& ensemble);
 

@@ -25,7 +25,7 @@ Eigen::MatrixXd worth_root(const Kernels& kernels, const Evidence& evidence) {
   for (Eigen::Index a = 0; a < designs; ++a) {
     for (Eigen::Index b = 0; b < designs; ++b) {
       const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-      left(a, b) = kernels.worth_covariance_of(i, j);
+      left(a, b) = kernels.of_worth[i][j];
       for (std::size_t k = 0; k < evidence.size(); ++k)
         left(a, b) -= evidence.gain(i, k) * evidence.gain(j, k);
     }
@@ -66,7 +66,8 @@ void Evidence::add(const Observation& o, double y, bool made) {
   made_.push_back(made);
   for (const Observation& other : observations_) {
     const bool same = &other == &observations_.back();
-    with.push_back(covariance(instrument_, o, other, same) + kernels_.covariance(o.row, other.row));
+    with.push_back(covariance(instrument_, o, other, same) +
+                   kernels_.of_responses[o.row][other.row]);
   }
   factor_.add(with);
   const std::vector<double>& row = factor_.row(size() - 1);
@@ -74,7 +75,7 @@ void Evidence::add(const Observation& o, double y, bool made) {
   std::vector<double> residual(ensemble_.members());
   for (std::size_t m = 0; m < residual.size(); ++m) residual[m] = y - kernels_.responses[o.row][m];
   std::vector<double> gain(kernels_.worth.size());
-  for (std::size_t d = 0; d < gain.size(); ++d) gain[d] = kernels_.worth_covariance(d, o.row);
+  for (std::size_t d = 0; d < gain.size(); ++d) gain[d] = kernels_.of_worth_and_responses[d][o.row];
   for (std::size_t k = 0; k + 1 < size(); ++k) {
     for (std::size_t m = 0; m < residual.size(); ++m) residual[m] -= row[k] * residuals_[k][m];
     for (std::size_t d = 0; d < gain.size(); ++d) gain[d] -= row[k] * gains_[k][d];

@@ -103,7 +103,10 @@ void Session::restore(const std::string& file) {
     wish_ = kept.value("wish", "");
     wish_of_ = kept.value("wish_of", "");
     for (const Json& w : kept.value("others", Json::array())) others_.push_back(workspace_from(w));
-    others_.push_back(workspace_from(kept));
+    Workspace last = workspace_from(kept);
+    // Another that was left under this one's name before it was saved so.
+    std::erase_if(others_, [&](const Workspace& w) { return w.draft.file == last.draft.file; });
+    others_.push_back(std::move(last));
     const auto mine = std::find_if(others_.begin(), others_.end(),
                                    [&](const Workspace& w) { return w.draft.file == file; });
     if (mine == others_.end()) return;

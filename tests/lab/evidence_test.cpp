@@ -24,7 +24,7 @@ TEST(Kernels, KeepMeanAndCovarianceOfTheMembers) {
     within += std::pow(k.responses[0][m] - middle, 2) / 40;
   }
   EXPECT_NEAR(middle, mean, 1e-12);
-  EXPECT_NEAR(within + k.covariance(0, 0), variance, 1e-12);
+  EXPECT_NEAR(within + k.of_responses[0][0], variance, 1e-12);
   // Two directions of unlike size: (1.29 + 1.04)^2 / ... lies between 1 and 2 dimensions.
   EXPECT_GT(k.width, 0.4);
   EXPECT_LT(k.width, 0.65);
@@ -46,15 +46,15 @@ TEST(Evidence, GivesTheWeightsOfTheDensityOfAllReadingsTogether) {
     evidence.add(all[i], y[i]);
     for (std::size_t j = 0; j < 4; ++j)
       c(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          covariance(instrument, all[i], all[j], i == j) + k.covariance(all[i].row, all[j].row);
+          covariance(instrument, all[i], all[j], i == j) + k.of_responses[all[i].row][all[j].row];
   }
   const double kernel = k.width * k.width;
   double moves = 0;
   for (std::size_t m = 0; m < 12; ++m) moves += k.response_moves[0][m] * k.response_moves[1][m];
-  EXPECT_NEAR(k.covariance(0, 1), kernel * moves + 0.02 * 0.3 - 0.1 * 0.1, 1e-12);
+  EXPECT_NEAR(k.of_responses[0][1], kernel * moves + 0.02 * 0.3 - 0.1 * 0.1, 1e-12);
   moves = 0;
   for (std::size_t m = 0; m < 12; ++m) moves += k.response_moves[0][m] * k.response_moves[2][m];
-  EXPECT_NEAR(k.covariance(0, 2), kernel * moves, 1e-12);
+  EXPECT_NEAR(k.of_responses[0][2], kernel * moves, 1e-12);
   std::vector<double> expected;
   double sum = 0;
   for (std::size_t m = 0; m < 12; ++m) {

@@ -101,6 +101,8 @@ def looks(browser, studio):
             wide = browser.run("return document.documentElement.scrollWidth")
             browser.picture(PICTURES, f"studio_{scheme}_{width}.png")
             check(wide <= width, f"{wide} px wide at {width} px")
+            feel, front = browser.run("return ['answer', 'search'].map(id => { const b = document.getElementById(id).getBoundingClientRect(); return [b.left, b.right, b.top]; })")
+            check(width < 1280 or front[2] < 200 and front[0] >= feel[1] - 1, f"the search is not beside Feel at {width} px: {feel}, {front}")
             faint, nameless = browser.run(FAINT), browser.run(NAMELESS)
             check(not faint, f"too faint in {scheme} at {width} px: {faint}")
             check(not nameless, f"without a name: {nameless}")
@@ -321,7 +323,7 @@ def measured(browser, results):
 
 
 def taken(browser):
-    """What is on the page as files: each chart as SVG, the page itself."""
+    """What is on the page as files: each chart, map and the designs as SVG, some as CSV, the page itself."""
     browser.run("""window.given = {};
         const make = URL.createObjectURL, click = HTMLAnchorElement.prototype.click;
         let last;
@@ -330,9 +332,9 @@ def taken(browser):
           if (!this.download) return click.call(this);
           last.then((text) => { window.given[this.download] = text; });
         };
-        document.querySelectorAll('.take button').forEach((b) => { if (b.textContent === 'SVG' && b.offsetParent) b.click(); });
+        document.querySelectorAll('.take button').forEach((b) => { if (/SVG|CSV/.test(b.textContent) && b.offsetParent) b.click(); });
         document.getElementById('keep').click();""")
-    until(browser, "window.given['modulation.svg'] && window.given['section.svg'] && window.given['designs.svg'] && window.given['papilla.html']", 20, "files of the page")
+    until(browser, "['modulation.svg', 'section.svg', 'designs.svg', 'heights.svg', 'heights.csv', 'all designs.svg', 'all designs.csv', 'papilla.html'].every(name => window.given[name])", 20, "files of the page")
     given = browser.run("return window.given")
     for name, words in [("modulation.svg", ["relative humidity [%]", "modulation ΔF/F_off", "this design"]), ("section.svg", ["height [nm]", "along the section [µm]"]), ("designs.svg", ["front, confirmed", "mean(modulation)"])]:
         root = xml.fromstring(given[name])
@@ -342,6 +344,14 @@ def taken(browser):
         curves = [p.get("d").count("L") for p in lines if p.get("stroke-width") in ("1.5", "2", "2.5") and not p.get("d").endswith("Z")]
         check(curves and max(curves) >= 1, f"{name} has no curve")
         check(len(lines) > 5 and all("NaN" not in p.get("d") for p in lines), f"{name} has {len(lines)} lines")
+    root = xml.fromstring(given["heights.svg"])
+    check(len(list(root.iter("{http://www.w3.org/2000/svg}image"))) == 1 and any((t.text or "").endswith(" nm") for t in root.iter("{http://www.w3.org/2000/svg}text")), "the map of heights as SVG")
+    rows = [[float(cell) for cell in row] for row in list(csv.reader(given["heights.csv"].splitlines()))[1:]]
+    depth = float(browser.run("return papilla.session().keys.find(k => k.path === 'texture.depth').shown"))
+    check(abs(max(r[2] for r in rows) - min(r[2] for r in rows) - depth) < 0.01 * depth, f"heights over {len(rows)} pixels, holes of {depth} nm")
+    root, rows = xml.fromstring(given["all designs.svg"]), list(csv.reader(given["all designs.csv"].splitlines()))
+    lines = list(root.iter("{http://www.w3.org/2000/svg}polyline"))
+    check(len(lines) == len(rows) - 1 > 5 and rows[0][-1] == "group" and "var(" not in given["all designs.svg"], f"{len(lines)} lines, {len(rows)} rows of designs")
     check(browser.run("return Object.values(papilla.charts).every(c => c.ctx instanceof CanvasRenderingContext2D)"), "a chart draws into its SVG")
     if PICTURES:
         for name, text in given.items():
@@ -357,6 +367,10 @@ def explained(browser):
     check("F_off" in browser.run("const n = document.getElementById('meaning'); return n.hidden ? '' : n.textContent"), "modulation is not explained")
     press(browser, "\ue00c")
     check(browser.run("return document.getElementById('meaning').hidden"), "Escape leaves the meaning open")
+    browser.run("document.querySelector('#limits .add').click(); document.querySelector('.limit .what').click()")
+    check(len(browser.run("const n = document.getElementById('meaning'); return n.hidden ? '' : n.textContent")) > 20, "a limit is not explained")
+    browser.run("document.querySelector('.limit button:last-child').click()")
+    press(browser, "\ue00c")
     check(len(browser.run("return [...document.querySelectorAll('#look .what')].map(b => b.getAttribute('aria-label'))")) >= 4, "looks are not explained")
     browser.run("document.getElementById('slopes').click()")
     until(browser, "[...document.querySelectorAll('.key .slope')].filter(p => !p.hidden && /modulation [+−].* ± /.test(p.textContent)).length >= 2", 120, "what numbers do")

@@ -309,6 +309,27 @@ TEST(Session, KeepsTheDraftOfEachFileThatWasOpened) {
   EXPECT_DOUBLE_EQ(get_number(other.view().opened, "texture.depth"), 600e-9);
 }
 
+// A draft that was left on a file is gone once another design is saved under that file's name.
+TEST(Session, ReopensWhatWasSavedLastUnderAName) {
+  const TemporaryFolder place;
+  const std::string mine = (place.path() / "mine.toml").string();
+  write_bytes(mine, "schema_version = 1\nbase = \"m3_samples/flat.toml\"\n");
+  {
+    Session session(place.path(), mine);
+    session.set("drive.amplitude", "77 V", 0);
+  }
+  {
+    Session session(place.path(), kHoles);
+    session.save_as(mine, [&](const Draft&, const Study&) {
+      write_bytes(mine, "schema_version = 1\nbase = \"m3_samples/a3h350.toml\"\n");
+    });
+    session.set("drive.amplitude", "88 V", 0);
+  }
+  Session again(place.path(), mine);
+  EXPECT_DOUBLE_EQ(get_number(again.view().study.design, "drive.amplitude"), 88);
+  EXPECT_DOUBLE_EQ(depth(again), 350e-9);
+}
+
 TEST(Session, AKindThatIsOnlyLookedAtLosesNothing) {
   const TemporaryFolder place;
   Session session(place.path(), kHoles);

@@ -7,6 +7,7 @@ import { micrometres, round } from '../plots/numbers.js';
 import { showSolid, startSolid } from '../plots/solid.js';
 import { people } from './form.js';
 import { post } from './server.js';
+import { takeableMap } from './take.js';
 
 const state = { revision: 0, shown: -1, timer: 0, busy: false };
 
@@ -81,6 +82,7 @@ async function fetchMaps() {
     $('maps').querySelectorAll('canvas').forEach((c) => {
       c.setAttribute('role', 'img');
       c.setAttribute('aria-label', c.nextSibling.textContent);
+      takeableMap(c, c.nextSibling.textContent.replace(/ *[[,].*/, ''));
     });
     state.shown = revision;
   } catch (error) {

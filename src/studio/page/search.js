@@ -7,6 +7,7 @@ import { parallel } from '../plots/parallel.js';
 import { table } from '../plots/tables.js';
 import { called, machine, people } from './form.js';
 import { ask, post } from './server.js';
+import { question } from './words.js';
 
 const state = { wish: null, search: null };
 const make = (tag, more = {}) => Object.assign(document.createElement(tag), more);
@@ -70,12 +71,10 @@ function select(names, value, label) {
   s.setAttribute('aria-label', label);
   return s;
 }
-// What the chosen word means, under the pointer and for those who hear the page.
+// A choice among words, and what the chosen one means.
 function explained(choice, words) {
-  const say = () => { const word = words.find((w) => w.name === choice.value); choice.title = word ? people(word.doc) : ''; };
-  choice.addEventListener('change', say);
-  say();
-  return choice;
+  const of = () => ({ word: choice.value.replace(/_/g, ' '), text: people((words.find((w) => w.name === choice.value) || { doc: 'no word of this program' }).doc) });
+  return [choice, question(of)];
 }
 function remover(line, what) {
   const b = make('button', { type: 'button', textContent: '×' });
@@ -85,17 +84,17 @@ function remover(line, what) {
 }
 function goal(direction, expression) {
   const line = make('div', { className: 'wishline goal' }), m = /^(\w+)\((.*)\)$/.exec(expression) || [0, 'mean', expression];
-  line.append(select(['maximise', 'minimise'], direction, 'direction'), select(summaries, m[1], 'over humidity'), explained(select(state.wish.metrics.map((x) => x.name), m[2], 'metric'), state.wish.metrics), remover(line, 'wish'));
+  line.append(select(['maximise', 'minimise'], direction, 'direction'), select(summaries, m[1], 'over humidity'), ...explained(select(state.wish.metrics.map((x) => x.name), m[2], 'metric'), state.wish.metrics), remover(line, 'wish'));
   return line;
 }
 function limit({ name, limit: value }) {
   const line = make('div', { className: 'wishline limit' }), known = state.wish.known_limits, word = make('span'), text = make('input', { type: 'text', value: people(value), size: 9 });
-  const choice = explained(select(known.map((k) => k.name), name, 'limit on'), known);
+  const choice = select(known.map((k) => k.name), name, 'limit on');
   const say = () => { const k = known.find((x) => x.name === choice.value); word.textContent = k && !k.at_least ? 'at most' : 'at least'; text.placeholder = k ? people(k.unit) : ''; };
   choice.addEventListener('change', say);
   text.setAttribute('aria-label', 'limit');
   say();
-  line.append(choice, word, text, remover(line, 'limit'));
+  line.append(...explained(choice, known), word, text, remover(line, 'limit'));
   return line;
 }
 function wishNow() {

@@ -8,7 +8,7 @@ import { showDimensions, showLook, showShape, startScene } from './scene.js';
 import { showLab, startLab } from './lab.js';
 import { showSearch, showWish, startSearch } from './search.js';
 import { ask, listen, notice, post } from './server.js';
-import { keepPage, takeable } from './take.js';
+import { keepPage, takeable, takeableDesigns, takeableMap, takeableSolid } from './take.js';
 import { startWords } from './words.js';
 
 let session = null, file = '', kind = '';
@@ -72,6 +72,9 @@ async function begin() {
   startSlopes();
   toolbar();
   [['modulation', 'modulation'], ['friction', 'friction'], ['section', 'section'], ['pareto', 'designs'], ['decisions', 'decisions']].forEach(([id, name]) => takeable($(id), name));
+  takeableSolid($('solid'), 'texture');
+  takeableMap($('top'), 'heights');
+  takeableDesigns($('all'), 'all designs');
   const all = await state();
   $('version').textContent = all.version;
   startWords(all.words);

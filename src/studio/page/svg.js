@@ -1,4 +1,4 @@
-// A chart as SVG: what it draws on its canvas, written down in place of it.
+// A chart or a map as SVG: what it draws on its canvas, written down in place of it.
 const number = (v) => +v.toFixed(2);
 const escaped = (text) => String(text).replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/"/g, '&quot;');
 
@@ -69,7 +69,7 @@ class Drawing {
   fillRect(x, y, w, h) { this.beginPath(); this.rect(x, y, w, h); this.fill(); }
   strokeRect(x, y, w, h) { this.beginPath(); this.rect(x, y, w, h); this.stroke(); }
   clearRect() {}
-  drawImage() {}
+  drawImage(image, x, y, w, h) { this.out.push(`<image href="${image.toDataURL()}" x="${number(x)}" y="${number(y)}" width="${number(w)}" height="${number(h)}" preserveAspectRatio="none" style="image-rendering:pixelated"${this.clipped}/>`); }
   // ---- words ----
   measureText(text) {
     this.real.save();
@@ -107,5 +107,21 @@ export function svgOf(chart) {
     chart.draw();
   }
   const back = getComputedStyle(document.body).backgroundColor;
-  return `<svg xmlns="http://www.w3.org/2000/svg" width="${chart.width}" height="${chart.height}" viewBox="0 0 ${chart.width} ${chart.height}"><rect width="100%" height="100%" fill="${back}"/>${drawing.out.join('\n')}</svg>\n`;
+  return picture(chart.width, chart.height, `<rect width="100%" height="100%" fill="${back}"/>${drawing.out.join('\n')}`);
+}
+const picture = (width, height, what) => `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">${what}</svg>\n`;
+// Its pixels are an image; scale bar, colours and words are drawn.
+export function svgOfMap(canvas) {
+  const drawing = new Drawing(canvas.getContext('2d'));
+  canvas.$paint(drawing);
+  return picture(canvas.width, canvas.height, drawing.out.join('\n'));
+}
+// A picture of the page that is one already, with the rules of the page that it is drawn by.
+export function svgOfElement(svg) {
+  const copy = svg.cloneNode(true), style = document.createElementNS('http://www.w3.org/2000/svg', 'style'), look = getComputedStyle(document.documentElement);
+  const rules = [...document.styleSheets].flatMap((sheet) => [...sheet.cssRules]).filter((rule) => rule.selectorText && rule.selectorText.includes('.parallel')).map((rule) => rule.cssText.replace(/\.parallel\s*/g, ''));
+  style.textContent = [`svg { background: ${getComputedStyle(document.body).backgroundColor}; font: 13px sans-serif; }`, ...rules].join('\n').replace(/var\((--[\w-]+)\)/g, (_, name) => look.getPropertyValue(name).trim());
+  copy.setAttribute('xmlns', 'http://www.w3.org/2000/svg');
+  copy.prepend(style);
+  return `${copy.outerHTML}\n`;
 }

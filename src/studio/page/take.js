@@ -1,6 +1,8 @@
-// What is on the page, to take along: a chart's numbers as CSV, its picture as PNG or SVG, the page as one file.
+// What is on the page, to take along: the numbers of a chart, a map or the designs as CSV, their picture as PNG or SVG, the
+// page as one file.
 import { charts } from '../plots/charts.js';
-import { svgOf } from './svg.js';
+import { decode } from '../plots/maps.js';
+import { svgOf, svgOfElement, svgOfMap } from './svg.js';
 
 export function give(name, content, type) {
   const link = document.createElement('a');
@@ -10,27 +12,45 @@ export function give(name, content, type) {
   if (link.href.startsWith('blob:')) setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 const cell = (text) => /[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
+const csv = (rows) => rows.map((row) => row.map((v) => cell(String(v))).join(',')).join('\n') + '\n';
 // One row a point; bars and bands as standard errors, of points that have them.
 export function csvOf(chart) {
   const axes = chart.options.scales, head = ['series', axes.x.title.text, axes.y.title.text, 'error of x', 'error of y'];
   const rows = chart.data.datasets.filter((set) => !set.band).flatMap((set) => set.data.map((p) => [set.label, p.x, p.y, p.ex || '', p.se || p.ey || '']));
-  return [head, ...rows].map((row) => row.map((v) => cell(String(v))).join(',')).join('\n') + '\n';
+  return csv([head, ...rows]);
 }
-// Buttons above the chart of a canvas; name: of the files.
-export function takeable(canvas, name) {
-  const id = canvas.id;
+// One row a pixel: its middle [um] and what is there.
+export function csvOfMap({ map, unit, scale }) {
+  const values = decode(map), rows = [['x [um]', 'y [um]', `value${unit ? ` [${unit}]` : ''}`]];
+  values.forEach((v, i) => rows.push([((i % map.nx) + 0.5) * map.lx / map.nx, (Math.floor(i / map.nx) + 0.5) * map.ly / map.ny].map((x) => +(1e6 * x).toPrecision(9)).concat(+(v * scale).toPrecision(6))));
+  return csv(rows);
+}
+const types = { CSV: 'text/csv', SVG: 'image/svg+xml', PNG: '' };
+// Buttons before a place; name: of the files; kinds: what each of them holds, of what there is.
+function buttons(place, name, there, kinds) {
   const box = document.createElement('div');
   box.className = 'take';
-  [['CSV', () => give(`${name}.csv`, csvOf(charts[id]), 'text/csv')], ['PNG', () => give(`${name}.png`, charts[id].toBase64Image(), '')], ['SVG', () => give(`${name}.svg`, svgOf(charts[id]), 'image/svg+xml')]].forEach(([text, work]) => {
+  Object.entries(kinds).forEach(([kind, content]) => {
     const button = document.createElement('button');
     button.type = 'button';
-    button.textContent = text;
-    button.setAttribute('aria-label', `${name} as ${text}`);
-    button.addEventListener('click', () => charts[id] && work());
+    button.textContent = kind;
+    button.setAttribute('aria-label', `${name} as ${kind}`);
+    button.addEventListener('click', () => there() && give(`${name}.${kind.toLowerCase()}`, content(there()), types[kind]));
     box.append(button);
   });
-  canvas.closest('figure').before(box);
+  place.before(box);
 }
+// The chart of a canvas.
+export const takeable = (canvas, name) => buttons(canvas.closest('figure'), name, () => charts[canvas.id], { CSV: csvOf, PNG: (chart) => chart.toBase64Image(), SVG: svgOf });
+// The map of a canvas.
+export const takeableMap = (canvas, name) => buttons(canvas, name, () => canvas.$map && canvas, { CSV: () => csvOfMap(canvas.$map), PNG: () => canvas.toDataURL(), SVG: svgOfMap });
+// What is drawn in three dimensions.
+export const takeableSolid = (box, name) => buttons(box, name, () => box.querySelector('canvas'), { PNG: (canvas) => canvas.toDataURL() });
+// Designs as lines over their numbers.
+export const takeableDesigns = (box, name) => buttons(box, name, () => box.querySelector('svg'), {
+  CSV: () => csv([box.$axes.map((a) => a.name + (a.unit ? ` [${a.unit}]` : '')).concat('group'), ...box.$designs.map((d) => box.$axes.map((_, i) => d.values[i] ?? '').concat(d.group))]),
+  SVG: svgOfElement,
+});
 
 // The page as it stands: pictures in place of canvases, its styles inside, nothing that acts.
 export function pageNow(title) {

@@ -36,21 +36,26 @@ function open(button, text) {
   note.style.left = `${scrollX + Math.max(12, Math.min(at.left, innerWidth - width - 12))}px`;
   note.style.top = `${scrollY + at.bottom + 6}px`;
 }
-// A "?" for each word in a place that has a meaning and none yet.
-function ask(place) {
-  if (place.querySelector(':scope > .what')) return;
-  const word = place.firstChild && place.firstChild.nodeType === Node.TEXT_NODE ? place.firstChild.textContent.trim() : place.textContent.trim();
-  const text = meaning(word);
-  if (!text) return;
+// A "?" that says what a word means. of: the word and its meaning, asked for anew, since a choice may change.
+export function question(of) {
   const button = document.createElement('button');
   button.type = 'button';
   button.className = 'what';
   button.textContent = '?';
-  button.setAttribute('aria-label', `What is ${word}?`);
   button.setAttribute('aria-expanded', 'false');
   button.setAttribute('aria-controls', 'meaning');
-  button.addEventListener('click', (e) => { e.preventDefault(); e.stopPropagation(); open(button, text); });
-  place.append(button);
+  const name = () => button.setAttribute('aria-label', `What is ${of().word}?`);
+  name();
+  button.addEventListener('focus', name);
+  button.addEventListener('click', (e) => { e.preventDefault(); e.stopPropagation(); name(); open(button, of().text); });
+  return button;
+}
+// One for each word in a place that has a meaning and none yet.
+function ask(place) {
+  if (place.querySelector(':scope > .what')) return;
+  const word = place.firstChild && place.firstChild.nodeType === Node.TEXT_NODE ? place.firstChild.textContent.trim() : place.textContent.trim();
+  const text = meaning(word);
+  if (text) place.append(question(() => ({ word, text })));
 }
 const places = '#numbers th, #numbers td:first-child, #look li > span:first-child, #frontlist th, #pins tbody td:first-child, #pins tbody th';
 export function startWords(of) {

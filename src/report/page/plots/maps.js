@@ -15,11 +15,24 @@ export function decode(map) {
   }
   return map.values;
 }
-// root: colours by the square root above the least value, for maps that are nearly all zero.
+// root: colours by the square root above the least value, for maps that are nearly all zero. The canvas keeps how it is
+// painted, for another kind of picture, and the map, for its numbers.
 export function drawMap(canvas, map, unit, scale, line, root) {
-  const values = decode(map), side = 480, height = Math.round(side * map.ly / map.lx);
+  const side = 480, height = Math.round(side * map.ly / map.lx);
   canvas.width = side;
   canvas.height = height + 46;
+  const most = Math.max(Math.abs(map.low), Math.abs(map.high)), values = decode(map), said = (v) => round(level(v, most) * scale);
+  canvas.$map = { map, unit, scale };
+  canvas.$paint = (c) => paint(c, { map, values, unit, line, root, side, height, said });
+  canvas.$paint(canvas.getContext('2d'));
+  canvas.onmousemove = (event) => {
+    const x = Math.floor(event.offsetX / canvas.clientWidth * map.nx);
+    const y = Math.floor(event.offsetY / canvas.clientHeight * canvas.height / height * map.ny);
+    canvas.title = x >= 0 && x < map.nx && y >= 0 && y < map.ny
+      ? `${said(values[y * map.nx + x])} ${unit} at ${micrometres((x + 0.5) * map.lx / map.nx)}, ${micrometres((y + 0.5) * map.ly / map.ny)}` : '';
+  };
+}
+function paint(c, { map, values, unit, line, root, side, height, said }) {
   const pixels = document.createElement('canvas');
   pixels.width = map.nx;
   pixels.height = map.ny;
@@ -29,9 +42,8 @@ export function drawMap(canvas, map, unit, scale, line, root) {
     image.data.set([rgb[0], rgb[1], rgb[2], 255], 4 * i);
   }
   pixels.getContext('2d').putImageData(image, 0, 0);
-  const c = canvas.getContext('2d');
   c.fillStyle = ink('paper');
-  c.fillRect(0, 0, canvas.width, canvas.height);
+  c.fillRect(0, 0, side, height + 46);
   c.imageSmoothingEnabled = false;
   c.drawImage(pixels, 0, 0, side, height);
   if (line !== undefined) {
@@ -56,17 +68,10 @@ export function drawMap(canvas, map, unit, scale, line, root) {
   }
   c.fillStyle = ink('ink');
   c.textAlign = 'left';
-  const most = Math.max(Math.abs(map.low), Math.abs(map.high)), said = (v) => round(level(v, most) * scale);
   c.fillText(said(map.low), side - 172, height + 38);
   c.textAlign = 'right';
   c.fillText(said(map.high) + ' ' + unit, side - 2, height + 38);
   c.textAlign = 'left';
-  canvas.onmousemove = (event) => {
-    const x = Math.floor(event.offsetX / canvas.clientWidth * map.nx);
-    const y = Math.floor(event.offsetY / canvas.clientHeight * canvas.height / height * map.ny);
-    canvas.title = x >= 0 && x < map.nx && y >= 0 && y < map.ny
-      ? `${said(values[y * map.nx + x])} ${unit} at ${micrometres((x + 0.5) * map.lx / map.nx)}, ${micrometres((y + 0.5) * map.ly / map.ny)}` : '';
-  };
 }
 // Each map as a figure with its name.
 export function mapFigures(box, maps) {

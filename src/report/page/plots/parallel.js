@@ -34,6 +34,7 @@ export const passing = (designs, scales, limits) => designs.filter((d) => limits
 
 // axes: [{ name, unit }]; designs: [{ values, group, text }], group "front", "searched" or "broken"; open: what a click on one does.
 export function parallel(box, axes, designs, open) {
+  Object.assign(box, { $axes: axes, $designs: designs });  // for who takes the numbers along
   const limits = ranges.get(box) || {}, scales = axes.map((a, i) => scaleOf(designs.map((d) => d.values[i])));
   ranges.set(box, limits);
   const steps = axes.length - 1, width = Math.max(box.clientWidth, 2 * layout.side + layout.step * steps), tall = layout.height - layout.top - layout.foot;

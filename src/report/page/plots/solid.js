@@ -52,9 +52,9 @@ export function startSolid() {
   solid.tools = tools(box);
   solid.ready = true;
 }
-// Stretch, section and scale below the picture.
+// Stretch, section and the step of the ticks below the picture.
 function tools(box) {
-  const row = document.createElement('div'), bar = document.createElement('span');
+  const row = document.createElement('div'), ticks = document.createElement('span');
   row.className = 'solidtools';
   const slider = (text, max, work) => {
     const label = document.createElement('label'), range = document.createElement('input');
@@ -66,9 +66,9 @@ function tools(box) {
   };
   const stretch = slider('stretch', 300, (v) => { solid.stretch = Math.max(1, +Math.pow(10, v / 100).toPrecision(2)); });
   slider('section', 95, (v) => { solid.section = v / 100; });
-  row.append(bar);
+  row.append(ticks);
   box.after(row);
-  return { stretch, bar };
+  return { stretch, ticks };
 }
 function zoomBy(factor) {
   solid.zoom = Math.min(8, Math.max(0.5, solid.zoom * factor));
@@ -97,9 +97,48 @@ function clear() {
   while (solid.turn.children.length) {
     const old = solid.turn.children[0];
     solid.turn.remove(old);
+    if (old.isSprite) continue;  // words are kept
     old.geometry.dispose();
     old.material.dispose();
   }
+}
+// Words that face the eye; each is painted once a colour.
+const words = new Map();
+function write(text, at) {
+  const tint = ink('ink'), key = `${tint} ${text}`;
+  if (!words.has(key)) {
+    const canvas = document.createElement('canvas'), c = canvas.getContext('2d');
+    [canvas.width, canvas.height] = [256, 64];
+    Object.assign(c, { font: '36px sans-serif', textAlign: 'center', textBaseline: 'middle', fillStyle: tint });
+    c.fillText(text, 128, 32);
+    words.set(key, new THREE.SpriteMaterial({ map: new THREE.CanvasTexture(canvas), depthTest: false }));
+  }
+  const word = new THREE.Sprite(words.get(key));
+  word.position.set(...at);
+  word.scale.set(0.56, 0.14, 1);
+  solid.turn.add(word);
+}
+// Along the front and the left side, ticks at a round length; at the right corner the whole height, which is stretched.
+function axes(map, unit, tick, base, back, span, stretch) {
+  const [right, front] = [map.lx * unit / 2, map.ly * unit / 2], out = 0.05, lines = [[-right, base, front, right, base, front], [-right, base, back, -right, base, front]];
+  for (let at = 0; at <= map.lx * (1 + 1e-9); at += tick) {
+    lines.push([at * unit - right, base, front, at * unit - right, base, front + out]);
+    write(at ? micrometres(at) : '0', [at * unit - right, base, front + 0.16]);
+  }
+  for (let at = tick; at <= map.ly * (1 + 1e-9); at += tick) {
+    const z = front - at * unit;
+    if (z < back - 1e-9) break;
+    lines.push([-right, base, z, -right - out, base, z]);
+    write(micrometres(at), [-right - 0.22, base, z]);
+  }
+  if (span > 0) {
+    const low = -span * stretch * unit;
+    lines.push([right, low, front, right, 0, front], [right + out, low, front, right, low, front], [right + out, 0, front, right, 0, front]);
+    write(micrometres(span), [right + 0.24, low / 2, front]);
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.Float32BufferAttribute(lines.flat(), 3));
+  solid.turn.add(new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: new THREE.Color(ink('ink')) })));
 }
 function mesh(positions, tints, index, sides) {
   const geometry = new THREE.BufferGeometry();
@@ -147,12 +186,9 @@ export function showSolid(map) {
   side(along.map((y) => [0, y]));
   side(along.map((y) => [nx - 1, y]));
   mesh(wall.positions, wall.tints, wall.index, true);
-  // The bar of a round length lies before the front side.
-  const bar = roundLength(map.lx / 3), left = -map.lx * unit / 2, front = map.ly * unit / 2 + 0.06, mark = new THREE.BufferGeometry();
-  mark.setAttribute('position', new THREE.Float32BufferAttribute([left, base, front, left + bar * unit, base, front, left, base, front + 0.03, left + bar * unit, base, front + 0.03], 3));
-  mark.setIndex([0, 2, 1, 1, 2, 3]);
-  solid.turn.add(new THREE.Mesh(mark, new THREE.MeshBasicMaterial({ color: new THREE.Color(ink('ink')), side: THREE.DoubleSide })));
-  solid.tools.bar.textContent = `bar ${micrometres(bar)}`;
-  solid.radius = 0.5 * unit * Math.hypot(map.lx, map.ly);
+  const tick = roundLength(map.lx / 2);
+  axes(map, unit, tick, base, at(0, first, 0)[2], span, stretch);
+  solid.tools.ticks.textContent = `ticks ${micrometres(tick)}`;
+  solid.radius = 0.5 * unit * Math.hypot(map.lx, map.ly) + 0.2;  // with the words beside it
   render();
 }
