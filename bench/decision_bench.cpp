@@ -75,7 +75,7 @@ Score true_score(const StudyProblem& problem, const Design& design, std::size_t 
     Response response = evaluate(scene, d.texture, fidelity);
     auto refused = complete(response, problem.goals(), scene, d, task.name, fidelity);
     answers.push_back(refused ? *std::move(refused)
-                              : answer_of(problem.goals(), d, task.name, response));
+                              : answer_of(problem.goals(), d, task.name, {std::move(response)}));
   }
   return problem.score(design, answers);
 }

@@ -36,7 +36,8 @@ namespace {
 constexpr int kTruthSeed = 3000;  // of the skins of the truths
 // Touches a day; those after which a plan is judged, and those that it makes at most.
 constexpr int kRound = 6, kWanted = 30, kMost = 72;
-constexpr double kSmallLoss = 0.02;  // of the choice: what a plan is to come under
+constexpr std::size_t kScatters = 3;  // how often each truth is measured, with other scatter
+constexpr double kSmallLoss = 0.02;   // of the choice: what a plan is to come under
 const std::vector<std::string> kDesigns{"a3h350", "a3h600", "a3h900", "a4h350", "a4h600", "flat"};
 const std::vector<std::string> kHypotheses{"air ionises", "air breaks down by field alone"};
 
@@ -281,8 +282,21 @@ std::vector<Experiment> batch_of(const World& w, const Standing& s, Plan plan, i
   options.day = fmt::format("{}", day);
   options.date = "2026-01-01";
   const PlanRecord record = plan_batch(s, *w.table, w.experiments, w.file, options, 0);
+  // Each once, in the order in which they gain, before any again; humidity by humidity where a
+  // change of it takes time.
+  std::vector<double> humidities;
   for (const PlannedExperiment& e : record.experiments) {
-    for (int k = 0; k < e.repeats; ++k) out.push_back(e.experiment);
+    const double humidity = w.file.costs.humidity > 0 ? e.experiment.at.relative_humidity : 0;
+    if (std::find(humidities.begin(), humidities.end(), humidity) == humidities.end())
+      humidities.push_back(humidity);
+  }
+  for (const double humidity : humidities) {
+    for (int k = 0; k < kRound; ++k) {
+      for (const PlannedExperiment& e : record.experiments) {
+        if ((humidity == 0 || e.experiment.at.relative_humidity == humidity) && k < e.repeats)
+          out.push_back(e.experiment);
+      }
+    }
   }
   return out;
 }
@@ -307,8 +321,8 @@ struct Course {
   Halved halved;
 };
 
-Course run(const World& w, const Start& start, std::size_t truth, Plan plan) {
-  Bench bench(w, truth, truth * 10);
+Course run(const World& w, const Start& start, std::size_t truth, std::size_t scatter, Plan plan) {
+  Bench bench(w, truth, truth * 10 + scatter);
   std::vector<FrictionReading> readings;
   Course out;
   auto s = stand(w, readings);
@@ -367,24 +381,33 @@ double touches_to_small_loss(const std::vector<std::vector<Mark>>& of_truths) {
   return out;
 }
 
-void judge_plans(const World& w, const Start& start, std::size_t truths) {
+struct NamedPlan {
+  const char* name;
+  Plan plan;
+};
+
+const NamedPlan kDecision{"`--for decision`", Plan::Decision},
+    kHypothesesPlan{"`--for hypotheses`", Plan::Hypotheses},
+    kDOptimal{"`--for parameters` (D-optimal)", Plan::DOptimal}, kGrid{"grid", Plan::Grid};
+
+void judge_plans(const World& w, const Start& start, std::size_t truths,
+                 const std::vector<NamedPlan>& plans) {
   fmt::print(
-      "| plan | truths whose interval was halved within 30 touches | median touches to half | "
-      "median "
-      "hours to half | heaviest hypothesis is right after 30 touches | mean loss of the choice: "
-      "before, after 30 touches | after 30, as the lab expects | touches until it stays under 2 % "
+      "| plan | halved within 30 touches | median touches to half | median hours to half | "
+      "heaviest "
+      "hypothesis is right after 30 touches | mean loss of the choice: before, after 30 touches | "
+      "after 30, as the lab expects | touches until it stays under 2 % "
       "|\n|---|---|---|---|---|---|---|---|\n");
-  for (const auto& [name, plan] : {std::pair("`--for decision`", Plan::Decision),
-                                   std::pair("`--for hypotheses`", Plan::Hypotheses),
-                                   std::pair("`--for parameters` (D-optimal)", Plan::DOptimal),
-                                   std::pair("grid", Plan::Grid)}) {
+  const std::size_t all = truths * kScatters;
+  const auto count = static_cast<double>(all);
+  for (const auto& [name, plan] : plans) {
     std::vector<double> touches, hours;
-    std::vector<std::vector<Mark>> all;
+    std::vector<std::vector<Mark>> of_all;
     int within = 0, right = 0;
-    double before = 0, after = 0, expected = 0;
-    for (std::size_t t = 0; t < truths; ++t) {
-      const Course course = run(w, start, t, plan);
-      const std::vector<Mark>& marks = all.emplace_back(course.marks);
+    double before = 0, after = 0, square_after = 0, expected = 0;
+    for (std::size_t i = 0; i < all; ++i) {
+      const Course course = run(w, start, i / kScatters, i % kScatters, plan);
+      const std::vector<Mark>& marks = of_all.emplace_back(course.marks);
       const Halved& h = course.halved;
       touches.push_back(h.touches);
       hours.push_back(h.seconds / 3600);
@@ -392,33 +415,42 @@ void judge_plans(const World& w, const Start& start, std::size_t truths) {
       std::size_t k = 0;
       while (k + 1 < marks.size() && marks[k].touches < kWanted) ++k;
       right += marks[k].right;
-      before += marks.front().loss / static_cast<double>(truths);
-      after += marks[k].loss / static_cast<double>(truths);
-      expected += marks[k].expected_loss / static_cast<double>(truths);
+      before += marks.front().loss / count;
+      after += marks[k].loss / count;
+      square_after += square(marks[k].loss) / count;
+      expected += marks[k].expected_loss / count;
       fmt::print(stderr,
                  "{} {}: half at {:.0f} touches {:.1f} h, p right {:.3f}, loss {:.3f} -> "
                  "{:.3f}\n",
-                 name, t, h.touches, h.seconds / 3600, marks[k].p_right, marks.front().loss,
+                 name, i, h.touches, h.seconds / 3600, marks[k].p_right, marks.front().loss,
                  marks[k].loss);
     }
-    const double small = touches_to_small_loss(all);
+    const double small = touches_to_small_loss(of_all);
+    const auto said = [](double value, int digits) {
+      return std::isinf(value) ? std::string("never") : fmt::format("{:.{}f}", value, digits);
+    };
+    // Courses of one truth are alike: the error is that of as many as there are truths.
     fmt::print(
-        "| {} | {} of {} | {:.0f} | {:.1f} | {} of {} | {:.1f} %, {:.1f} % | {:.1f} % | {} |\n",
-        name, within, truths, median(touches), median(hours), right, truths, 100 * before,
-        100 * after, 100 * expected,
+        "| {} | {} of {} | {} | {} | {} of {} | {:.1f} %, {:.1f} ± {:.1f} % | {:.1f} % | {} |\n",
+        name, within, all, said(median(touches), 0), said(median(hours), 1), right, all,
+        100 * before, 100 * after,
+        100 * std::sqrt((square_after - square(after)) / static_cast<double>(truths)),
+        100 * expected,
         std::isinf(small) ? fmt::format("not within {}", kMost) : fmt::format("{:.0f}", small));
   }
 }
 
-// The width that a truth's readings of some experiments leave, of the first.
+// The width that a truth's readings of some experiments leave, of the first. course: the truth and
+// the scatter of its readings.
 class Touched {
  public:
   Touched(const World& world, const Start& start) : world_(world), start_(start) {}
 
-  double operator()(std::size_t truth, const std::vector<std::size_t>& experiments) const {
+  double operator()(std::size_t course, const std::vector<std::size_t>& experiments) const {
     const Standing& s = *start_.standing;
     const Instrument& instrument = world_.file.instrument;
-    Bench bench(world_, truth, truth * 10);
+    const std::size_t truth = course / kScatters;
+    Bench bench(world_, truth, truth * 10 + course % kScatters);
     bench.next_day();
     Evidence evidence(s.ensemble, s.kernels, instrument);
     for (const std::size_t e : experiments) {
@@ -436,16 +468,18 @@ class Touched {
   const Start& start_;
 };
 
-// What no plan can beat: all sets of so many touches, told to all truths; of them the one that
-// halves most truths, and the truths that any of them halves, chosen for each when its readings
-// are known. Sets of more than two grow from the best hundred of one less.
+// What no plan can beat: all sets of so many touches, told to all truths with all their scatters;
+// of them the one that halves most, and how many any of them halves, chosen for each when its
+// readings are known. Sets of more than two grow from the best hundred of one less.
 void judge_least(const World& w, const Start& start, std::size_t truths) {
+  const std::size_t courses = truths * kScatters;
   constexpr int kTouches = 4;
   constexpr std::size_t kKept = 100;
   fmt::print(
-      "\n| touches | sets tried | truths halved by the set that halves most | truths halved by "
-      "some "
-      "set, chosen for each with its readings known |\n|---|---|---|---|\n");
+      "\n| touches | sets tried | halved by the set that halves most | hours that it takes "
+      "| "
+      "halved by some set, chosen for each with its readings known "
+      "|\n|---|---|---|---|---|\n");
   const Touched touched(w, start);
   std::vector<std::vector<std::size_t>> sets{{}};
   for (int touches = 1; touches <= kTouches; ++touches) {
@@ -456,31 +490,34 @@ void judge_least(const World& w, const Start& start, std::size_t truths) {
         wider.back().push_back(e);
       }
     }
-    std::vector<std::vector<double>> widths(wider.size(), std::vector<double>(truths));
+    std::vector<std::vector<double>> widths(wider.size(), std::vector<double>(courses));
     parallel_for(
         static_cast<int>(wider.size()),
         [&](int i) {
           const auto k = static_cast<std::size_t>(i);
-          for (std::size_t t = 0; t < truths; ++t) widths[k][t] = touched(t, wider[k]);
+          for (std::size_t t = 0; t < courses; ++t) widths[k][t] = touched(t, wider[k]);
         },
         0);
-    std::size_t most = 0, some = 0;
-    std::vector<double> least(truths, INFINITY);
+    std::size_t most = 0, some = 0, at = 0;
+    std::vector<double> least(courses, INFINITY);
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t k = 0; k < wider.size(); ++k) {
       std::size_t halved = 0;
       double sum = 0;
-      for (std::size_t t = 0; t < truths; ++t) {
+      for (std::size_t t = 0; t < courses; ++t) {
         halved += widths[k][t] <= 0.5;
         least[t] = std::min(least[t], widths[k][t]);
         sum += std::log(widths[k][t]);
       }
+      if (halved > most) at = k;
       most = std::max(most, halved);
       order.push_back({sum, k});
     }
     for (const double width : least) some += width <= 0.5;
-    fmt::print("| {} | {} | {} of {} | {} of {} |\n", touches, wider.size(), most, truths, some,
-               truths);
+    std::vector<Experiment> best;
+    for (const std::size_t e : wider[at]) best.push_back(w.experiments[e]);
+    fmt::print("| {} | {} | {} of {} | {:.1f} | {} of {} |\n", touches, wider.size(), most, courses,
+               cost(w, best) / 3600, some, courses);
     std::sort(order.begin(), order.end());
     sets.clear();
     const std::size_t kept = touches == 1 ? order.size() : std::min(kKept, order.size());
@@ -541,11 +578,17 @@ int main(int argc, char** argv) {
   try {
     const int members = argc > 2 ? std::atoi(argv[2]) : 80,
               truths = argc > 3 ? std::atoi(argv[3]) : 20;
-    const World w = make_world(argv[1], members, truths);
+    World w = make_world(argv[1], members, truths);
     const Start start = start_of(w);
-    judge_plans(w, start, static_cast<std::size_t>(truths));
-    judge_least(w, start, static_cast<std::size_t>(truths));
-    judge_discrepancy(w, static_cast<std::size_t>(truths));
+    const auto count = static_cast<std::size_t>(truths);
+    judge_plans(w, start, count, {kDecision, kHypothesesPlan, kDOptimal, kGrid});
+    judge_least(w, start, count);
+    const Costs costs = w.file.costs;
+    w.file.costs.humidity = w.file.costs.design = w.file.costs.state = 0;
+    fmt::print("\nWhere set-ups take no time:\n\n");
+    judge_plans(w, start, count, {kDecision, kDOptimal});
+    w.file.costs = costs;
+    judge_discrepancy(w, count);
     judge_moves(w, drawn(w.designs.front().design.finger, truths, "lab truths"), argv[1]);
   } catch (const InputError& error) {
     fmt::print(stderr, "{}\n", error.what());

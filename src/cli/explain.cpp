@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/scan_options.h"
 #include "design/study.h"
+#include "estimate/belief.h"
 #include "estimate/target.h"
 #include "forward/price.h"
 #include "forward/skips.h"
@@ -52,6 +53,23 @@ std::string study_text(const Study& study) {
   return out;
 }
 
+// What `papilla evaluate` would take here. Members of belief by their price beside that of the
+// rest.
+std::string time_text(const Design& design, const Fidelity& fidelity, const Plan& plan) {
+  const Scene scene = scene_of(design);
+  const double seconds = measured_seconds(scene, design.texture, fidelity);
+  std::string out = fmt::format("on this machine about {} of one core, as two of the skins tell",
+                                duration(seconds));
+  if (!design.finger.belief.empty()) {
+    const ModelCost cost = model_cost(design.finger, fidelity);
+    const double share =
+        cost.runs * make_plan(scene, design.texture, cost.fidelity).seconds() / plan.seconds();
+    out += fmt::format(", and {} for the {} members of the finger's belief (--no-model: without)",
+                       duration(share * seconds), cost.runs - 1);
+  }
+  return out + '\n';
+}
+
 int explain(const Context& context, const DesignOptions& options, bool measure) {
   const Study study = read_study(options.file, options.overrides);
   const Design& design = study.design;
@@ -75,8 +93,7 @@ int explain(const Context& context, const DesignOptions& options, bool measure) 
           "accuracy.level and accuracy.grid count for --sweep, --voltage-for and pictures only\n";
   }
   text += plan.text();
-  text += fmt::format("on this machine about {} of one core, as two of the skins tell\n",
-                      duration(measured_seconds(scene_of(design), design.texture, fidelity)));
+  text += time_text(design, fidelity, plan);
   for (const std::string& line : calibration_mismatch(design)) text += "warning: " + line + '\n';
   if (const std::string why = frequency_not_felt(design); design.drive.driven() && !why.empty())
     text += "frequency not felt: " + why + '\n';

@@ -57,9 +57,24 @@ std::string worth_text(const ResultFiles& f, const std::string& words, double di
   std::string out =
       fmt::format("{:.2g}{}", difference * shown.scale, shown.unit.empty() ? "" : " " + shown.unit);
   if (d.rule.kind != PickRule::Kind::Knee && d.best_worth != 0)
-    out += fmt::format(" ({:.2g} % of its worth)", 100 * difference / std::abs(d.best_worth));
+    out += fmt::format(" ({:.2g} %)", 100 * difference / std::abs(d.best_worth));
   return stated(bare_number(words, difference * shown.scale, shown.unit, kOfBelief, kOfDecision),
                 out);
+}
+
+// What per cent of a difference are of: "; per cent are of 0.14, what the best has on average".
+std::string share_text(const ResultFiles& f) {
+  const Decision& d = decision_of(f);
+  if (d.rule.kind == PickRule::Kind::Knee || d.best_worth == 0) return {};
+  ShownUnit shown;
+  if (d.rule.kind == PickRule::Kind::Objective)
+    shown = shown_unit(f.problem.objectives()[d.rule.index].expression);
+  const double average = d.best_worth * shown.scale;
+  return fmt::format(
+      "; per cent are of {}, what the best has on average over that",
+      stated(bare_number("what the best of each member has on average", average, shown.unit,
+                         kOfBelief, kOfDecision),
+             fmt::format("{:.2g}{}", average, shown.unit.empty() ? "" : " " + shown.unit)));
 }
 
 std::string regret_text(const ResultFiles& f, std::size_t design) {
@@ -155,11 +170,13 @@ std::string limits_sentence(const ResultFiles& f) {
   const std::string has = p_limits_text(f, d.best);
   const std::string made =
       YieldModel::exists(f.study) ? "" : ", if it is made exactly so (the study has no [scatter])";
-  if (d.sure(wanted)) return fmt::format(" It keeps every limit with probability {}{}.", has, made);
+  const std::string name = name_of(f, d.best);
+  if (d.sure(wanted))
+    return fmt::format(" With probability {} {} keeps every limit{}.", has, name, made);
   return fmt::format(
-      " It keeps every limit with probability {}, the highest of the front, where the study wants "
+      " With probability {} {} keeps every limit, the highest of the front, where the study wants "
       "{} (risk.limits): loosen a limit or leave more room to it{}.",
-      has, percent(wanted), made);
+      has, name, percent(wanted), made);
 }
 
 // The design whose measurement beside that of the chosen one settles most: what is better where
@@ -179,6 +196,12 @@ std::size_t rival_of(const Decision& d) {
   return out;
 }
 
+// Its texture, and what else the variables say of its surface.
+std::string rival_text(const ResultFiles& f, const FinalDesign& rival) {
+  const std::string surface = surface_text(f, "the design to measure", rival.unit);
+  return shape_text(rival.design) + (surface.empty() ? "" : "; " + surface);
+}
+
 std::string measure_sentence(const ResultFiles& f) {
   const Decision& d = decision_of(f);
   if (d.designs.size() < 2 || d.designs[d.best].p_best > kSure) return {};
@@ -186,8 +209,7 @@ std::string measure_sentence(const ResultFiles& f) {
       "To be surer, measure the friction of {} and of {} ({}){}: `papilla next RESULTS` with the "
       "folder of this run plans it (humidity, load, voltage, repeats) in a table to fill in, and "
       "`papilla tell` takes the table back and says what it changes.",
-      name_of(f, d.best), name_of(f, rival_of(d)),
-      shape_text(f.result.finalists[rival_of(d)].design),
+      name_of(f, d.best), name_of(f, rival_of(d)), rival_text(f, f.result.finalists[rival_of(d)]),
       f.problem.driven() ? " with the drive off and on" : "");
 }
 
@@ -206,9 +228,9 @@ std::string others_sentence(const ResultFiles& f) {
   std::string out;
   if (d.nominal != d.best)
     out += fmt::format(
-        " By the finger and model as fitted, alone, it would be {}{}, with an expected regret of "
-        "{}.",
-        name_of(f, d.nominal), any && often == d.nominal ? ", " + more_often() : "",
+        " If the finger and model as fitted were all, {}{} would be chosen; over what is not known "
+        "it loses {} on average.",
+        name_of(f, d.nominal), any && often == d.nominal ? ", " + more_often() + "," : "",
         regret_text(f, d.nominal));
   if (any && often != d.nominal)
     out += fmt::format(" Not chosen, but {}, is {}, with an expected regret of {}.", more_often(),
@@ -233,7 +255,7 @@ std::vector<std::string> decision_grounds(const ResultFiles& f) {
       "probability {}, with an expected regret of {}",
       stated(count_number("designs of the front", d.designs.size(), {Stage::Confirm}),
              fmt::format("{}", d.designs.size())),
-      worth_name(f), p_best_text(f, shown), regret_text(f, shown));
+      worth_name(f), p_best_text(f, shown), regret_text(f, shown) + share_text(f));
   if (shown != d.best)
     return {sure + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f))};
   std::vector<std::string> out{sure + "." + others_sentence(f) + limits_sentence(f)};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/constants.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "design/families.h"
@@ -75,8 +76,8 @@ std::string finish_text(const ResultFiles& f) {
   return join_names(out);
 }
 
-// "surface.contact_angle 63 deg, drive.amplitude 180 V": what the variables say of a surface
-// besides its texture.
+}  // namespace
+
 std::string surface_text(const ResultFiles& f, const std::string& of, const Point& unit) {
   const std::vector<double> value = f.problem.space().value(unit);
   std::vector<std::string> out;
@@ -87,6 +88,8 @@ std::string surface_text(const ResultFiles& f, const std::string& of, const Poin
   }
   return join_names(out);
 }
+
+namespace {
 
 std::vector<std::string> broken_texts(const std::vector<LimitValue>& limits) {
   std::vector<std::string> out;
@@ -217,6 +220,7 @@ std::string judged_on_grid(const BuiltDesign& build) {
 }
 
 std::string shape_text(const Design& design) {
+  constexpr double kUpright = kPi / 2 - 1e-9;  // walls that nobody has to be told of
   Texture texture = design.texture;
   const TextureFacts of = facts(texture);
   if (!of.relief.present) return "without texture";
@@ -241,6 +245,8 @@ std::string shape_text(const Design& design) {
   add(role.width, "wide");
   add(role.depth, array && !array->deep ? "high" : "deep");
   add(role.period, "from one to the next");
+  const double* wall = role.wall_angle;
+  if (wall != nullptr && *wall < kUpright) add(wall, "steep");
   return measures.empty() ? kind : kind + " " + join_names(measures);
 }
 

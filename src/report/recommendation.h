@@ -27,5 +27,8 @@ std::string judged_on_grid(const BuiltDesign& build);
 std::string design_name(const std::string& folder);
 // "grooves 1.2 um wide, 5.41 um apart, 349 nm deep"
 std::string shape_text(const Design& design);
+// "surface.contact_angle 63 deg, drive.amplitude 180 V": what the variables say of a surface
+// besides its texture. of: whose numbers these are, for the receipts.
+std::string surface_text(const ResultFiles& f, const std::string& of, const Point& unit);
 
 }  // namespace papilla::report

@@ -89,7 +89,11 @@ std::string facts_text(const ResultFiles& f) {
       said += fmt::format(" (without texture {})", worst_text(of_flat, f.result.flat->worst));
     said += " over fingers and humidity";
   }
-  return said + (design.feasible ? "." : ". It does not keep every constraint.");
+  said += design.feasible ? "." : ". It does not keep every constraint.";
+  if (f.result.decision.made())
+    said += " ± is numerical, brackets behind it hold what is not known of finger and model.";
+  if (f.problem.driven()) said += " Modulation is (F_on - F_off)/F_off.";
+  return said;
 }
 
 // Each as a whole: counts and trends of a search that is not made again.

@@ -175,6 +175,29 @@ double task_price(const StudyProblem& problem, Stage stage, double most_seconds)
   return cost.runs * plan_at(problem, cost.fidelity).seconds();
 }
 
+double over_price(Stage stage) {
+  switch (stage) {
+    case Stage::Narrow:
+      return 1.15;
+    case Stage::Confirm:
+      return 1.5;
+    case Stage::Rounding:
+      return 1.4;
+    case Stage::Belief:
+      return 1.75;
+    case Stage::Steps:
+      return 1.6;
+    case Stage::Stability:
+      return 0.8;
+    case Stage::Search:
+    case Stage::Draft:
+    case Stage::Sensitivity:
+    case Stage::Done:
+      break;
+  }
+  return 1;
+}
+
 StudyCost study_cost(const Study& study) {
   const StudyProblem problem(study);
   const SearchProblem search = search_problem(problem);
@@ -185,7 +208,7 @@ StudyCost study_cost(const Study& study) {
   out.finalists = kFinalists + 1;
   if (YieldModel::exists(study)) out.plates = plates_of(study, true);
   const auto price = [&](std::size_t tasks, Stage stage) {
-    return static_cast<double>(tasks) * task_price(problem, stage);
+    return static_cast<double>(tasks) * over_price(stage) * task_price(problem, stage);
   };
   const std::size_t tasks = problem.tasks().size(), variables = search.space.size();
   out.seconds = price(static_cast<std::size_t>(search.evaluations) * tasks, Stage::Search) +

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 
 #include "base/error.h"
 #include "optim/worker.h"
+#include "search/levels.h"
 #include "search/records.h"
 
 namespace papilla::search {
@@ -127,13 +129,24 @@ AnsweredAgain answer_again(const StudyProblem& problem, const Folder& folder,
   if (workers == 0) return out;
   const auto team = make_local_team(workers, work_function(problem, 1, how.text), WorkerLimits{});
   const auto from = std::chrono::steady_clock::now();
+  std::map<Stage, double> prices;  // of a task
+  double priced = 0;               // what is answered
   for (std::size_t done = 0; done < order.size();) {
     const double spent =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
-    if ((how.stop && *how.stop) || (how.seconds > 0 && spent > how.seconds)) break;
     std::vector<Bytes> some;
     const std::size_t end = std::min(order.size(), done + 2 * workers);
-    for (std::size_t i = done; i < end; ++i) some.push_back(encode(requests[order[i]]));
+    double price = 0;
+    for (std::size_t i = done; i < end; ++i) {
+      const Stage stage = requests[order[i]].stage;
+      if (!prices.count(stage)) prices[stage] = over_price(stage) * task_price(problem, stage);
+      price += prices[stage];
+      some.push_back(encode(requests[order[i]]));
+    }
+    // What would end after the time is not begun, as long as something is answered.
+    const double then = spent + (priced > 0 ? price * spent / priced : 0);
+    if ((how.stop && *how.stop) || (how.seconds > 0 && then > how.seconds)) break;
+    priced += price;
     for (const WorkAnswer& answer : team->answer(some)) {
       const std::size_t i = order[done++];
       const Stage stage = requests[i].stage;

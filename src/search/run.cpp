@@ -98,32 +98,6 @@ void check_budget(const Run& run) {
       run.folder.path(), evaluated, run.search.evaluations));
 }
 
-// What the tasks of a stage take over their price, beside those of the search: the designs that it
-// finds and the other fingers take more than the study's own design, which prices are of. Medians
-// of shipped studies (docs/measured/performance.md).
-double of_price(Stage stage) {
-  switch (stage) {
-    case Stage::Narrow:
-      return 1.15;
-    case Stage::Confirm:
-      return 1.5;
-    case Stage::Rounding:
-      return 1.4;
-    case Stage::Belief:
-      return 1.75;
-    case Stage::Steps:
-      return 1.6;
-    case Stage::Stability:
-      return 0.8;
-    case Stage::Search:
-    case Stage::Draft:
-    case Stage::Sensitivity:
-    case Stage::Done:
-      break;
-  }
-  return 1;
-}
-
 // Clock at the end of each stage.
 struct StageSeconds {
   double search = 0, narrow = 0, confirm = 0;
@@ -232,7 +206,7 @@ double Run::seconds_of(std::size_t tasks, Stage stage) const {
 
 double Run::expected_seconds(Stage stage) const {
   const bool whole = stage == Stage::Confirm || stage == Stage::Rounding;
-  return of_price(stage) * price(stage, whole ? confirm_seconds : 0);
+  return over_price(stage) * price(stage, whole ? confirm_seconds : 0);
 }
 
 double Run::price(Stage stage, double most_seconds) const {

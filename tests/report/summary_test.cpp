@@ -270,7 +270,7 @@ TEST(BuildSheet, SaysWhyAPlaceDoesNotHoldAndTheAlternative) {
       as_read(recommendation(run.files()))
           .find(" Its place does not hold: 1 of 2 checks (smooth: design 02 is better). The "
                 "alternative that holds in 2 of 2 is design 02 (holes 4 um wide, 500 nm deep, "
-                "8 um from one to the next)."),
+                "8 um from one to the next, 88 deg steep)."),
       std::string::npos)
       << as_read(recommendation(run.files()));
 }

@@ -112,8 +112,8 @@ TEST(LevelNumbers, StepsOfTheFingerCostTwoEvaluationsEach) {
   // A run has them of the best design and of its flat surface, on every finger.
   Study none = one_finger();
   none.design.finger.uncertainty.clear();
-  EXPECT_NEAR(study_cost(study).seconds - study_cost(none).seconds, 2 * two,
-              1e-6 * study_cost(study).seconds);
+  EXPECT_NEAR(study_cost(study).seconds - study_cost(none).seconds,
+              2 * over_price(Stage::Steps) * two, 1e-6 * study_cost(study).seconds);
 }
 
 TEST(LevelNumbers, ThePlanOfASearchNamesItsStages) {

@@ -246,7 +246,9 @@ TEST(Price, OfAStudyIsThatOfItsStages) {
   EXPECT_EQ(cost.tasks, 4);
   EXPECT_EQ(cost.narrowed, 20u);
   EXPECT_EQ(cost.finalists, 9u);
-  const auto price = [&](double count, Stage stage) { return count * task_price(problem, stage); };
+  const auto price = [&](double count, Stage stage) {
+    return count * over_price(stage) * task_price(problem, stage);
+  };
   double seconds =
       price(60 * 4, Stage::Search) + price(20 * 4, Stage::Narrow) +
       price((9 + 2 + 3) * 4, Stage::Confirm) +

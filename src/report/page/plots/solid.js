@@ -103,17 +103,17 @@ function clear() {
   }
 }
 // Words that face the eye; each is painted once a colour.
-const words = new Map();
+const written = new Map();
 function write(text, at) {
   const tint = ink('ink'), key = `${tint} ${text}`;
-  if (!words.has(key)) {
+  if (!written.has(key)) {
     const canvas = document.createElement('canvas'), c = canvas.getContext('2d');
     [canvas.width, canvas.height] = [256, 64];
     Object.assign(c, { font: '36px sans-serif', textAlign: 'center', textBaseline: 'middle', fillStyle: tint });
     c.fillText(text, 128, 32);
-    words.set(key, new THREE.SpriteMaterial({ map: new THREE.CanvasTexture(canvas), depthTest: false }));
+    written.set(key, new THREE.SpriteMaterial({ map: new THREE.CanvasTexture(canvas), depthTest: false }));
   }
-  const word = new THREE.Sprite(words.get(key));
+  const word = new THREE.Sprite(written.get(key));
   word.position.set(...at);
   word.scale.set(0.56, 0.14, 1);
   solid.turn.add(word);
