@@ -36,7 +36,7 @@ namespace {
 constexpr int kTruthSeed = 3000;  // of the skins of the truths
 // Touches a day; those after which a plan is judged, and those that it makes at most.
 constexpr int kRound = 6, kWanted = 30, kMost = 72;
-constexpr std::size_t kScatters = 3;  // how often each truth is measured, with other scatter
+constexpr std::size_t kScatters = 2;  // how often each truth is measured, with other scatter
 constexpr double kSmallLoss = 0.02;   // of the choice: what a plan is to come under
 const std::vector<std::string> kDesigns{"a3h350", "a3h600", "a3h900", "a4h350", "a4h600", "flat"};
 const std::vector<std::string> kHypotheses{"air ionises", "air breaks down by field alone"};
@@ -311,7 +311,7 @@ double cost(const World& w, const std::vector<Experiment>& batch) {
   return seconds_of(candidates, all, w.file.costs);
 }
 
-// When the width is half of the first, to a touch; infinite: never.
+// When the width is half of the first, to a touch; infinite: not within kWanted.
 struct Halved {
   double touches = INFINITY, seconds = INFINITY;
 };
@@ -347,7 +347,7 @@ Course run(const World& w, const Start& start, std::size_t truth, std::size_t sc
     for (const Experiment& e : batch) {
       readings.push_back(bench.measure(e, day));
       done.push_back(e);
-      if (!std::isinf(out.halved.touches)) continue;
+      if (!std::isinf(out.halved.touches) || readings.size() > kWanted) continue;
       const auto now = stand(w, readings);
       if (width(*now, *now->evidence, start.standing->best, start.p_best) <= start.width / 2)
         out.halved = {static_cast<double>(readings.size()), seconds + cost(w, done)};
@@ -427,7 +427,8 @@ void judge_plans(const World& w, const Start& start, std::size_t truths,
     }
     const double small = touches_to_small_loss(of_all);
     const auto said = [](double value, int digits) {
-      return std::isinf(value) ? std::string("never") : fmt::format("{:.{}f}", value, digits);
+      return std::isinf(value) ? fmt::format("over {}", kWanted)
+                               : fmt::format("{:.{}f}", value, digits);
     };
     // Courses of one truth are alike: the error is that of as many as there are truths.
     fmt::print(
