@@ -55,12 +55,23 @@ double measured_seconds(const Scene& scene, const Texture& texture, const Fideli
     return seconds_of([&] { solve_patches(scene, texture, few); }) - again;
   };
   // The first skin makes tables and transforms that the others have.
-  const double first = solved(1), skin = std::max(0.0, solved(least)) / least;
+  const double first = solved(1), both = solved(least);
 
   Fidelity whole = fidelity;  // but for the 3-D field
   whole.field_skins = 0;
-  const double controls = control_share(make_plan(scene, texture, whole));
-  double out = setup + std::max(0.0, first - skin) + fidelity.skins * skin * (1 + controls);
+  const Plan plan = make_plan(scene, texture, whole);
+  // By the load law few skins find their equilibrium, and the others take its law.
+  double equilibrium = 0;
+  const int settled = std::min(fidelity.equilibrium_skins, fidelity.skins);
+  if (least > 1 && settled > 1 && settled < fidelity.skins && !plan.traction_solves) {
+    few.equilibrium_skins = 1;
+    equilibrium = std::max(0.0, both - solved(least)) / (least - 1);
+    few.equilibrium_skins = fidelity.equilibrium_skins;
+  }
+  const double skin = std::max(0.0, both / least - equilibrium),
+               made_once = std::max(0.0, first - skin - equilibrium),
+               controls = control_share(plan);
+  double out = setup + made_once + (fidelity.skins * skin + settled * equilibrium) * (1 + controls);
   if (controls > 0) out += setup * kControlSetups;
   if (!field_corrected(scene, fidelity)) return out;
 

@@ -32,7 +32,7 @@ std::size_t narrowings(const SearchProblem& search);
 double task_price(const StudyProblem& problem, Stage stage, double most_seconds = 0);
 // What the tasks of a stage take over their price, beside those of the search: the designs that it
 // finds and the other fingers take more than the study's own design, which prices are of. Medians
-// of shipped studies (docs/measured/performance.md).
+// of shipped studies (docs/theory/search.md).
 double over_price(Stage stage);
 
 // What shipped studies took of their price on a quiet machine (docs/theory/search.md).
