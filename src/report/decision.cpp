@@ -48,33 +48,38 @@ std::string worth_name(const ResultFiles& f) {
   return "the sum of the objectives, each a share of the front's extent";
 }
 
+// A value of it in its unit. more: what stands behind that.
+std::string in_worth(const ResultFiles& f, const std::string& words, double value,
+                     const std::string& more) {
+  const PickRule& rule = decision_of(f).rule;
+  ShownUnit shown;
+  if (rule.kind == PickRule::Kind::Objective)
+    shown = shown_unit(f.problem.objectives()[rule.index].expression);
+  return stated(bare_number(words, value * shown.scale, shown.unit, kOfBelief, kOfDecision),
+                fmt::format("{:.2g}{}{}", value * shown.scale,
+                            shown.unit.empty() ? "" : " " + shown.unit, more));
+}
+
+// Whether differences are said in per cent too.
+bool has_shares(const Decision& d) {
+  return d.rule.kind != PickRule::Kind::Knee && d.best_worth != 0;
+}
+
 // A difference in it: "0.004 (0.8 %)", "1.2 mN (3 %)".
 std::string worth_text(const ResultFiles& f, const std::string& words, double difference) {
   const Decision& d = decision_of(f);
-  ShownUnit shown;
-  if (d.rule.kind == PickRule::Kind::Objective)
-    shown = shown_unit(f.problem.objectives()[d.rule.index].expression);
-  std::string out =
-      fmt::format("{:.2g}{}", difference * shown.scale, shown.unit.empty() ? "" : " " + shown.unit);
-  if (d.rule.kind != PickRule::Kind::Knee && d.best_worth != 0)
-    out += fmt::format(" ({:.2g} %)", 100 * difference / std::abs(d.best_worth));
-  return stated(bare_number(words, difference * shown.scale, shown.unit, kOfBelief, kOfDecision),
-                out);
+  return in_worth(f, words, difference,
+                  has_shares(d)
+                      ? fmt::format(" ({:.2g} %)", 100 * difference / std::abs(d.best_worth))
+                      : std::string());
 }
 
 // What per cent of a difference are of: "; per cent are of 0.14, what the best has on average".
 std::string share_text(const ResultFiles& f) {
   const Decision& d = decision_of(f);
-  if (d.rule.kind == PickRule::Kind::Knee || d.best_worth == 0) return {};
-  ShownUnit shown;
-  if (d.rule.kind == PickRule::Kind::Objective)
-    shown = shown_unit(f.problem.objectives()[d.rule.index].expression);
-  const double average = d.best_worth * shown.scale;
-  return fmt::format(
-      "; per cent are of {}, what the best has on average over that",
-      stated(bare_number("what the best of each member has on average", average, shown.unit,
-                         kOfBelief, kOfDecision),
-             fmt::format("{:.2g}{}", average, shown.unit.empty() ? "" : " " + shown.unit)));
+  if (!has_shares(d)) return {};
+  return fmt::format("; per cent are of {}, what the best has on average over that",
+                     in_worth(f, "what the best of each member has on average", d.best_worth, ""));
 }
 
 std::string regret_text(const ResultFiles& f, std::size_t design) {

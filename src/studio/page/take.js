@@ -19,9 +19,9 @@ export function csvOf(chart) {
   const rows = chart.data.datasets.filter((set) => !set.band).flatMap((set) => set.data.map((p) => [set.label, p.x, p.y, p.ex || '', p.se || p.ey || '']));
   return csv([head, ...rows]);
 }
-// One row a pixel: its middle [um] and what is there.
+// One row a pixel: its middle [um] and what is there, to half a step of the 255 that a map of the page has.
 export function csvOfMap({ map, unit, scale }) {
-  const values = decode(map), rows = [['x [um]', 'y [um]', `value${unit ? ` [${unit}]` : ''}`]];
+  const values = decode(map), rows = [['x [um]', 'y [um]', `value${unit ? ` [${unit}]` : ''} ± ${+((map.high - map.low) / 510 * scale).toPrecision(2)}`]];
   values.forEach((v, i) => rows.push([((i % map.nx) + 0.5) * map.lx / map.nx, (Math.floor(i / map.nx) + 0.5) * map.ly / map.ny].map((x) => +(1e6 * x).toPrecision(9)).concat(+(v * scale).toPrecision(6))));
   return csv(rows);
 }
