@@ -57,7 +57,8 @@ std::optional<Unit> simple_unit(std::string_view name) {
   for (const Base& base : kBases) {
     for (const Prefix& prefix : kPrefixes) {
       if (*prefix.symbol && !base.prefixes) continue;
-      if (name == std::string(prefix.symbol) + base.symbol) {
+      if (const std::string_view before = prefix.symbol;
+          name.starts_with(before) && name.substr(before.size()) == base.symbol) {
         Unit unit = base.unit;
         unit.to_si = prefix.factor;
         const std::string_view symbol = base.symbol;

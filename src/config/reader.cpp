@@ -368,14 +368,16 @@ struct Document::State final : public FieldVisitor {
   }
 
   // The value of a key of the present table, or null. Reports a required key that is missing.
-  const Node* value(const char* key, Presence presence, const std::string& what) {
+  // what: makes the words for a key that is missing, which few are.
+  template <class Words>
+  const Node* value(const char* key, Presence presence, const Words& what) {
     known[frame().path].push_back(key);
     if (!frame().table) return nullptr;
     const Node* node = frame().table->find(key);
     if (node) {
       if (!node->not_set) origins[join_path(frame().path, key)] = node->place;
     } else if (presence == Presence::Required && !frame().partial) {
-      problem(frame().table->place, frame().path, fmt::format("missing `{}` ({}", key, what));
+      problem(frame().table->place, frame().path, fmt::format("missing `{}` ({}", key, what()));
     }
     return node;
   }
@@ -467,15 +469,16 @@ struct Document::State final : public FieldVisitor {
   }
 
   void number(const NumberSpec& spec, double& si) override {
-    const Node* node =
-        value(spec.key, spec.presence, fmt::format("{}), {}", spec.doc, dimension_of(spec.unit)));
+    const Node* node = value(spec.key, spec.presence, [&] {
+      return fmt::format("{}), {}", spec.doc, dimension_of(spec.unit));
+    });
     if (node) convert(spec, *node, join_path(frame().path, spec.key), si);
   }
 
   void numbers(const NumberSpec& spec, std::vector<double>& si) override {
-    const Node* node =
-        value(spec.key, spec.presence,
-              fmt::format("{}), a list, each {}", spec.doc, dimension_of(spec.unit)));
+    const Node* node = value(spec.key, spec.presence, [&] {
+      return fmt::format("{}), a list, each {}", spec.doc, dimension_of(spec.unit));
+    });
     if (!node) return;
     const std::string path = join_path(frame().path, spec.key);
     if (changes_items(*node, path, static_cast<int>(si.size()))) {
@@ -502,7 +505,8 @@ struct Document::State final : public FieldVisitor {
   }
 
   void integer(const FieldSpec& spec, int low, int high, int& out) override {
-    const Node* node = value(spec.key, spec.presence, std::string(spec.doc) + "), a whole number");
+    const Node* node =
+        value(spec.key, spec.presence, [&] { return std::string(spec.doc) + "), a whole number"; });
     if (!node) return;
     const std::string path = join_path(frame().path, spec.key);
     if (node->kind != Node::Kind::Integer) {
@@ -517,7 +521,8 @@ struct Document::State final : public FieldVisitor {
   }
 
   void flag(const FieldSpec& spec, bool& out) override {
-    const Node* node = value(spec.key, spec.presence, std::string(spec.doc) + "), true or false");
+    const Node* node =
+        value(spec.key, spec.presence, [&] { return std::string(spec.doc) + "), true or false"; });
     if (!node) return;
     if (node->kind != Node::Kind::Flag) {
       problem(node->place, join_path(frame().path, spec.key),
@@ -528,7 +533,8 @@ struct Document::State final : public FieldVisitor {
   }
 
   void text(const FieldSpec& spec, std::string& out) override {
-    const Node* node = value(spec.key, spec.presence, std::string(spec.doc) + "), a text");
+    const Node* node =
+        value(spec.key, spec.presence, [&] { return std::string(spec.doc) + "), a text"; });
     if (!node) return;
     if (!node->is_text()) {
       problem(node->place, join_path(frame().path, spec.key),
@@ -539,7 +545,8 @@ struct Document::State final : public FieldVisitor {
   }
 
   void path(const FieldSpec& spec, std::string& out) override {
-    const Node* node = value(spec.key, spec.presence, std::string(spec.doc) + "), a file");
+    const Node* node =
+        value(spec.key, spec.presence, [&] { return std::string(spec.doc) + "), a file"; });
     if (!node) return;
     const std::string key = join_path(frame().path, spec.key);
     if (!node->is_text()) {
@@ -560,7 +567,8 @@ struct Document::State final : public FieldVisitor {
 
   void choice(const FieldSpec& spec, const std::vector<std::string>& names, int& out) override {
     const std::string list = "one of " + join_names(names);
-    const Node* node = value(spec.key, spec.presence, fmt::format("{}), {}", spec.doc, list));
+    const Node* node =
+        value(spec.key, spec.presence, [&] { return fmt::format("{}), {}", spec.doc, list); });
     if (!node) return;
     const auto found = std::find(names.begin(), names.end(), node->is_text() ? node->text : "");
     if (node->is_text() && found != names.end()) {
@@ -607,7 +615,8 @@ struct Document::State final : public FieldVisitor {
   }
 
   bool begin_section(const FieldSpec& spec) override {
-    const Node* node = value(spec.key, spec.presence, std::string(spec.doc) + "), a section");
+    const Node* node =
+        value(spec.key, spec.presence, [&] { return std::string(spec.doc) + "), a section"; });
     const std::string path = join_path(frame().path, spec.key);
     if (node && !node->is_table()) {
       problem(node->place, path,
@@ -621,7 +630,8 @@ struct Document::State final : public FieldVisitor {
   void end_section() override { stack.pop_back(); }
 
   int begin_list(const FieldSpec& spec, int current, bool& replace) override {
-    const Node* node = value(spec.key, spec.presence, std::string(spec.doc) + "), a list");
+    const Node* node =
+        value(spec.key, spec.presence, [&] { return std::string(spec.doc) + "), a list"; });
     const std::string path = join_path(frame().path, spec.key);
     const bool items = node && changes_items(*node, path, current);
     if (node && !node->is_array() && !items) {

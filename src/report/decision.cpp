@@ -74,11 +74,11 @@ std::string worth_text(const ResultFiles& f, const std::string& words, double di
                       : std::string());
 }
 
-// What per cent of a difference are of: "; per cent are of 0.14, what the best has on average".
+// What per cent of a difference are of: ", which has 0.14 on average".
 std::string share_text(const ResultFiles& f) {
   const Decision& d = decision_of(f);
   if (!has_shares(d)) return {};
-  return fmt::format("; per cent are of {}, what the best has on average over that",
+  return fmt::format(", which has {} on average over the members (per cent are of that)",
                      in_worth(f, "what the best of each member has on average", d.best_worth, ""));
 }
 
@@ -97,29 +97,34 @@ std::string p_limits_text(const ResultFiles& f, std::size_t design) {
                         decision_of(f).designs[design].p_limits);
 }
 
+std::string members_text(const ResultFiles& f) {
+  const std::size_t members = decision_of(f).members;
+  return stated(count_number("members of belief", members, {}), fmt::format("{}", members));
+}
+
 std::string hypothesis_share(const Reversal& r) {
   return percent_stated("weight of hypothesis \"" + r.name + "\"", r.weight);
 }
 
-// "under hypothesis "emission" (9 % of belief) design 02 is better by 0.01 (2 %)"
+// "if the choice of the model "emission" holds (9 % of belief), design 02 is better by 0.01 (2 %)"
 std::string reversal_text(const ResultFiles& f, const std::string& where, const Reversal& r) {
   const Decision& d = decision_of(f);
   if (r.loss > 0)
     return fmt::format(
-        "{} {} is better by {}", where, name_of(f, r.best),
+        "{}, {} is better by {}", where, name_of(f, r.best),
         worth_text(f, "what " + name_of(f, r.best) + " is better by " + where, r.loss));
-  return fmt::format("{} {} is recommended, as it keeps the limits more surely (over all {})",
+  return fmt::format("{}, {} is recommended, as it keeps the limits more surely (over all {})",
                      where, name_of(f, r.best), p_limits_text(f, d.best));
 }
 
-// "where finger.skin.rms is below 207 nm"
+// "if finger.skin.rms is below 207 nm"
 std::string parameter_text(const ResultFiles& f, const char* word) {
   const HalvesReversal& p = *decision_of(f).parameter;
   Finger finger = f.problem.tasks().front().finger;
   const std::vector<NumberField> known = number_fields(finger);
   const NumberField field = find_number_field(known, p.path);
   const double edge = p.edge / find_unit(field.unit)->to_si;
-  return fmt::format("where finger.{} is {} {}", p.path, word,
+  return fmt::format("if finger.{} is {} {}", p.path, word,
                      stated(bare_number("middle of belief in finger." + p.path, edge, field.unit,
                                         kOfBelief, kOfDecision),
                             in_unit(p.edge, field.unit, 3)));
@@ -142,9 +147,11 @@ std::vector<std::string> overturned(const ResultFiles& f) {
   std::vector<std::string> out;
   for (const Reversal& r : d.hypotheses) {
     if (overturns(d, r))
-      out.push_back(reversal_text(
-          f, fmt::format("under hypothesis \"{}\" ({} of belief)", r.name, hypothesis_share(r)),
-          r));
+      out.push_back(
+          reversal_text(f,
+                        fmt::format("if the choice of the model \"{}\" holds ({} of belief)",
+                                    r.name, hypothesis_share(r)),
+                        r));
   }
   if (!d.parameter) return out;
   for (const auto& [half, word] :
@@ -158,12 +165,15 @@ std::string overturned_text(const ResultFiles& f) {
   const std::vector<std::string> found = overturned(f);
   if (found.empty())
     return fmt::format(
-        "no hypothesis and no half of a parameter's values changes the choice by {:.0f} % or more",
+        "nothing that was tried: under no choice of the model, and with no number of the finger "
+        "above or below the middle of what is believed of it, is another design better by {:.0f} % "
+        "or more",
         100 * kAlike);
   return join_names(found, "; ") +
          fmt::format(
-             "; no other hypothesis and no half of a parameter's values does by {:.0f} % or "
-             "more",
+             "; no other choice of the model, and no number of the finger above or below the "
+             "middle of "
+             "what is believed of it, makes another design better by {:.0f} % or more",
              100 * kAlike);
 }
 
@@ -174,7 +184,10 @@ std::string limits_sentence(const ResultFiles& f) {
   if (f.study.constraints.empty()) return {};
   const std::string has = p_limits_text(f, d.best);
   const std::string made =
-      YieldModel::exists(f.study) ? "" : ", if it is made exactly so (the study has no [scatter])";
+      YieldModel::exists(f.study)
+          ? ""
+          : ", if it is made exactly so: scatter of making is not in this (a section [scatter] of "
+            "the study with the tolerances of the fab adds it)";
   const std::string name = name_of(f, d.best);
   if (d.sure(wanted))
     return fmt::format(" With probability {} {} keeps every limit{}.", has, name, made);
@@ -209,13 +222,15 @@ std::string rival_text(const ResultFiles& f, const FinalDesign& rival) {
 
 std::string measure_sentence(const ResultFiles& f) {
   const Decision& d = decision_of(f);
-  if (d.designs.size() < 2 || d.designs[d.best].p_best > kSure) return {};
+  if (!design_to_measure(f)) return {};
   return fmt::format(
-      "To be surer, measure the friction of {} and of {} ({}){}: `papilla next RESULTS` with the "
-      "folder of this run plans it (humidity, load, voltage, repeats) in a table to fill in, and "
-      "`papilla tell` takes the table back and says what it changes.",
+      "To be surer, measure the friction of {} and of {} ({}){}, over the humidities and at the "
+      "load of this study: the one that is better in {} is to be built. `papilla next RESULTS` "
+      "with "
+      "the folder of this run plans it (humidities, loads, voltages, repeats, order) in a table to "
+      "fill in, and `papilla tell` takes the table back and says what it changes.",
       name_of(f, d.best), name_of(f, rival_of(d)), rival_text(f, f.result.finalists[rival_of(d)]),
-      f.problem.driven() ? " with the drive off and on" : "");
+      f.problem.driven() ? " with the drive off and on" : "", worth_name(f));
 }
 
 // The choice by the numbers of the fit, and what is the best more often and loses more where it is
@@ -233,8 +248,8 @@ std::string others_sentence(const ResultFiles& f) {
   std::string out;
   if (d.nominal != d.best)
     out += fmt::format(
-        " If the finger and model as fitted were all, {}{} would be chosen; over what is not known "
-        "it loses {} on average.",
+        " By the finger and the model as fitted alone, {}{} would be chosen; over the members it "
+        "stays {} behind the best on average.",
         name_of(f, d.nominal), any && often == d.nominal ? ", " + more_often() + "," : "",
         regret_text(f, d.nominal));
   if (any && often != d.nominal)
@@ -251,16 +266,25 @@ std::string chosen_how(const ResultFiles& f) {
 
 }  // namespace
 
+std::optional<std::size_t> design_to_measure(const ResultFiles& f) {
+  const Decision& d = decision_of(f);
+  if (!d.made() || d.designs.size() < 2 || d.designs[d.best].p_best > kSure) return std::nullopt;
+  return rival_of(d);
+}
+
 std::vector<std::string> decision_grounds(const ResultFiles& f) {
   const Decision& d = decision_of(f);
   if (!d.made()) return {};
   const std::size_t shown = f.result.best;
   std::string sure = fmt::format(
-      "How sure: over what is not known of finger and model it is the best of {} in {} with "
-      "probability {}, with an expected regret of {}",
+      "How sure: of the {} designs of the front {} is the best in {} with probability {}, by this "
+      "model and over {} members of belief (values of the finger and choices of the model that the "
+      "measurements leave open; numerical errors are not in it). On average it stays {} behind "
+      "the best design of each member (the expected regret){}",
       stated(count_number("designs of the front", d.designs.size(), {Stage::Confirm}),
              fmt::format("{}", d.designs.size())),
-      worth_name(f), p_best_text(f, shown), regret_text(f, shown) + share_text(f));
+      name_of(f, shown), worth_name(f), p_best_text(f, shown), members_text(f),
+      regret_text(f, shown), share_text(f));
   if (shown != d.best)
     return {sure + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f))};
   std::vector<std::string> out{sure + "." + others_sentence(f) + limits_sentence(f)};
@@ -278,7 +302,7 @@ std::string decision_text(const ResultFiles& f) {
       "Each design of the front at {} members of belief about finger and model (as good as {} "
       "equal ones), judged in {}. Regret: what is lost on average against the best design at each "
       "member. `best/` has {}.\n\n",
-      stated(count_number("members of belief", d.members, {}), fmt::format("{}", d.members)),
+      members_text(f),
       stated(bare_number("effective members of belief", d.effective_members, "", kOfBelief, {}),
              fmt::format("{:.3g}", d.effective_members)),
       worth_name(f), chosen_how(f));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 #include "base/rooms.h"
@@ -11,10 +12,14 @@ namespace papilla::report {
 
 // Texts carry what is behind their numbers (stated_number.h).
 
-// "How sure: it is the best of 9 in the worst modulation with probability 71 %, ...", "What would
+// "How sure: of the 9 designs of the front design 06 is the best in the worst modulation with
+// probability 71 %, ...", "What would
 // overturn it: ...", "To be surer, measure ...": a line each. Of the design that the decision is
 // for; none without a decision.
 std::vector<std::string> decision_grounds(const ResultFiles& files);
+// The design whose measurement beside that of the chosen one settles most; nothing where the choice
+// is sure.
+std::optional<std::size_t> design_to_measure(const ResultFiles& files);
 // "## Which of them, by belief" of summary.md: each design's probabilities, and what would overturn
 // the choice; why there is none, where there is none.
 std::string decision_text(const ResultFiles& files);

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "metrics/shown.h"
 #include "report/decision.h"
+#include "report/limits.h"
 #include "report/recommendation.h"
 #include "report/run_numbers.h"
 #include "report/sheet.h"
@@ -45,7 +46,8 @@ const char* state_text(FingerState state) {
   return "wet fingers";
 }
 
-// ", driven with 200 V at 5 kHz"; "" of a surface without a drive.
+}  // namespace
+
 std::string drive_text(const Drive& drive) {
   if (!drive.driven()) return {};
   const auto said = [](const char* what, double value, const char* unit) {
@@ -53,11 +55,12 @@ std::string drive_text(const Drive& drive) {
                   in_unit(value, unit, 4));
   };
   const std::string source = drive.control == DriveControl::Voltage
-                                 ? said("amplitude of the drive", drive.amplitude, "V")
+                                 ? said("amplitude of the drive", drive.amplitude, "V") + " (peak)"
                                  : said("current of the drive", drive.current, "mA");
-  return fmt::format(", driven with {} at {}", source,
-                     said("frequency of the drive", drive.frequency, "kHz"));
+  return fmt::format("{} at {}", source, said("frequency of the drive", drive.frequency, "kHz"));
 }
+
+namespace {
 
 // Which fingers and weathers the numbers are for.
 std::string conditions_text(const ResultFiles& f) {
@@ -76,10 +79,11 @@ std::string conditions_text(const ResultFiles& f) {
   const std::string load = least == most
                                ? said("the", least)
                                : said("the least", least) + " to " + said("the largest", most);
+  const std::string drive = drive_text(built_design(f).drive);
   return fmt::format("Judged for {} at {} relative humidity under {}{}.",
                      join_names(states, " and "),
                      humidity_text(f.study.design.environment.relative_humidity), load,
-                     drive_text(built_design(f).drive));
+                     drive.empty() ? "" : ", driven with " + drive);
 }
 
 // An objective in one of the checks.
@@ -89,6 +93,12 @@ std::string checked_value(const StudyObjective& o, double value, const std::stri
                             {Stage::Confirm, Stage::Stability}),
                 shown_value(o.expression, value)) +
          (shown.unit.empty() ? "" : " " + shown.unit);
+}
+
+std::string checked_worst(const StabilityVariant& v, std::size_t place) {
+  return stated(bare_number("worst modulation under " + v.name, v.worst[place], "", kOfACheck,
+                            {Stage::Stability}),
+                fmt::format("{:.3f}", v.worst[place]));
 }
 
 // The numbers of a design in one of the checks: "mean(modulation) 0.296 (0.608)".
@@ -107,15 +117,10 @@ std::string skin_text(const ResultFiles& f) {
                                  checked_value(o, other.values[*place][k], other.name),
                                  checked_value(o, own.values[*place][k], own.name)));
   }
-  const auto worst = [&](const StabilityVariant& v) {
-    return stated(bare_number("worst modulation under " + v.name, v.worst[*place], "", kOfACheck,
-                              {Stage::Stability}),
-                  fmt::format("{:.3f}", v.worst[*place]));
-  };
   if (f.problem.driven() && *place < other.worst.size())
-    values.push_back(fmt::format("a worst modulation of {}{} in place of {}", worst(other),
-                                 other.worst[*place] < kNoticed ? ", which nobody feels," : "",
-                                 worst(own)));
+    values.push_back(fmt::format(
+        "a worst modulation of {}{} in place of {}", checked_worst(other, *place),
+        other.worst[*place] < kNoticed ? ", which nobody feels," : "", checked_worst(own, *place)));
   return fmt::format("Finger \"{}\" alone has on {} {}.", f.problem.tasks().front().name,
                      other.name, join_names(values));
 }
@@ -144,7 +149,9 @@ std::string model_text(const ResultFiles& f) {
                     checked_value(o, (*high)[k], "the choice of the model that makes it largest")));
   }
   return fmt::format(
-      "{} ({} of them, on finger \"{}\"; \"Does the order hold?\" has each): over these {}.", out,
+      "{} ({} of them, on finger \"{}\"; the table \"Does the order hold?\" has each): over these "
+      "{}.",
+      out,
       stated(count_number("choices of the model that were tried", tried, {Stage::Stability}),
              fmt::format("{}", tried)),
       f.problem.tasks().front().name,
@@ -198,6 +205,14 @@ std::string film_text(const ResultFiles& f) {
       said("film that stays", films[0].thickness + planes->low));
 }
 
+// "min_wall at least 0.4 um": the limit of that name.
+std::string limit_of_name(const ResultFiles& f, const std::string& name) {
+  for (const Constraint& limit : f.study.constraints) {
+    if (limit_name(limit.on) == name) return limit_asked(limit);
+  }
+  return name;
+}
+
 // Dimensions that a limit leaves nothing or little: what the fab has to know first.
 std::string room_text(const ResultFiles& f) {
   std::vector<std::string> none;
@@ -206,7 +221,7 @@ std::string room_text(const ResultFiles& f) {
       if (!drift || drift->end != Drift::End::Limit) return;
       const double unit = find_unit(row.unit)->to_si;
       none.push_back(fmt::format(
-          "{} {} {} ({})", row.path,
+          "{} {} {} ({})", plain_name(row.path),
           drift->most > 0
               ? "at most " +
                     stated(bare_number(fmt::format("room {} of {}", way, row.path),
@@ -214,7 +229,7 @@ std::string room_text(const ResultFiles& f) {
                                        {Stage::Confirm, Stage::Rounding, Stage::Sensitivity}),
                            in_unit(drift->most, row.unit, 2))
               : std::string("not at all"),
-          way, drift->limit));
+          way, limit_of_name(f, drift->limit)));
     };
     add(row.down, "down");
     add(row.up, "up");
@@ -230,6 +245,17 @@ std::string worst_text(const std::string& of, double worst) {
   return stated(bare_number("worst modulation of " + of, worst, "", kLowest,
                             {Stage::Confirm, Stage::Rounding}),
                 fmt::format("{:.3f}", worst));
+}
+
+std::string unfelt_skin_text(const ResultFiles& f) {
+  const Stability& s = f.result.stability;
+  const auto place = checked_place(f);
+  if (!f.problem.driven() || !place || !s.other_skin || *s.other_skin >= s.variants.size())
+    return {};
+  const StabilityVariant& other = s.variants[*s.other_skin];
+  if (*place >= other.worst.size() || !(other.worst[*place] < kNoticed)) return {};
+  return fmt::format(" But on {} its worst modulation is {}, which nobody feels (finger \"{}\").",
+                     other.name, checked_worst(other, *place), f.problem.tasks().front().name);
 }
 
 std::vector<std::string> grounds(const ResultFiles& f) {

@@ -18,8 +18,8 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kOfALimit = "held against its limit as it is";
 
 // The limit itself, as a text has it.
-std::string asked_limit(const LimitValue& v, const std::string& text) {
-  return stated(bare_number("limit of " + limit_name(v.limit.on), v.limit.limit, "SI", kAsked, {}),
+std::string asked_limit(const Constraint& limit, const std::string& text) {
+  return stated(bare_number("limit of " + limit_name(limit.on), limit.limit, "SI", kAsked, {}),
                 text);
 }
 
@@ -35,11 +35,15 @@ std::string limit_stated(const LimitValue& v, const std::string& words) {
                 limit_value_text(v.limit, v.value));
 }
 
+std::string limit_asked(const Constraint& limit) {
+  return limit_name(limit.on) + " " + asked_limit(limit, limit_text(limit));
+}
+
 std::string limit_broken(const LimitValue& v) {
   return fmt::format("{} is {}, {} your limit of {}", limit_name(v.limit.on),
                      limit_stated(v, limit_name(v.limit.on) + " where it is broken"),
                      v.limit.at_least ? "below" : "above",
-                     asked_limit(v, limit_value_text(v.limit, v.limit.limit)));
+                     asked_limit(v.limit, limit_value_text(v.limit, v.limit.limit)));
 }
 
 // Of what is built, where that was judged; else as far as they are known before.
@@ -63,7 +67,7 @@ std::string limits_table(const std::vector<LimitValue>& limits) {
   if (limits.empty()) return {};
   std::string out = "\n" + markdown_head({"limit", "asked for", "as built"});
   for (const LimitValue& v : limits) {
-    out += markdown_row({limit_name(v.limit.on), asked_limit(v, limit_text(v.limit)),
+    out += markdown_row({limit_name(v.limit.on), asked_limit(v.limit, limit_text(v.limit)),
                          built_limit_text(v) + (v.kept() ? "" : ", **broken**")});
   }
   return out;
@@ -88,7 +92,7 @@ Json built_limits_json(const std::vector<LimitValue>& limits) {
   Json out = limits_json(limits);
   for (std::size_t i = 0; i < limits.size(); ++i) {
     out[i]["text"] = built_limit_text(limits[i]);
-    out[i]["asked"] = asked_limit(limits[i], limit_text(limits[i].limit));
+    out[i]["asked"] = asked_limit(limits[i].limit, limit_text(limits[i].limit));
   }
   return out;
 }

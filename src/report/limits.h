@@ -12,6 +12,8 @@ namespace papilla::report {
 
 // What a design has of a limit, as a stated number.
 std::string limit_stated(const LimitValue& value, const std::string& words);
+// "min_wall at least 0.4 um"
+std::string limit_asked(const Constraint& limit);
 // "min_wall is 0.3 um, below your limit of 0.4 um"
 std::string limit_broken(const LimitValue& value);
 // Of what is built, where that was judged; else as far as they are known before.

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "base/constants.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "design/families.h"
 #include "metrics/shown.h"
+#include "report/grounds.h"
 #include "report/limits.h"
 #include "report/run_numbers.h"
 #include "report/unstable.h"
@@ -60,7 +63,7 @@ std::string chosen_value(const Variable& v, double value, const std::string& of)
                 text);
 }
 
-// "surface.contact_angle 90 deg (60 deg in the study)": what of that which is built is not the
+// "contact angle 90 deg (60 deg in the study file)": what of that which is built is not the
 // texture's.
 std::string finish_text(const ResultFiles& f) {
   const std::vector<double> own = f.problem.space().value(f.problem.space().unit_of_study());
@@ -69,7 +72,7 @@ std::string finish_text(const ResultFiles& f) {
   std::vector<std::string> out;
   for (std::size_t k : changed_finish(f.problem, f.result)) {
     const Variable& v = f.study.variables[k];
-    out.push_back(fmt::format("{} {} ({} in the study)", v.path,
+    out.push_back(fmt::format("{} {} ({} in the study file)", plain_name(v.path),
                               chosen_value(v, built[k], "what is built"),
                               chosen_value(v, own[k], "the study")));
   }
@@ -84,7 +87,7 @@ std::string surface_text(const ResultFiles& f, const std::string& of, const Poin
   for (std::size_t k = 0; k < value.size(); ++k) {
     const Variable& v = f.study.variables[k];
     if (!v.path.starts_with("texture."))
-      out.push_back(fmt::format("{} {}", v.path, chosen_value(v, value[k], of)));
+      out.push_back(fmt::format("{} {}", plain_name(v.path), chosen_value(v, value[k], of)));
   }
   return join_names(out);
 }
@@ -150,6 +153,13 @@ std::string worth_building(const ResultFiles& f) {
   const OptimiseResult& r = f.result;
   const FinalDesign& best = best_of(f);
   std::vector<std::string> clauses;
+  if (f.problem.driven())
+    clauses.push_back(fmt::format(
+        "Its worst modulation, (F_on - F_off)/F_off, over fingers and humidity is {}{}.",
+        worst_text("what is recommended", best.confirmed.worst),
+        r.flat ? "; of the same surface without texture " +
+                     worst_text("the same surface without texture", r.flat->worst)
+               : ""));
   std::vector<std::string> broken;
   for (const LimitValue& v : broken_without_texture(f.problem, r))
     broken.push_back(limit_broken(v));
@@ -173,10 +183,9 @@ std::string worth_building(const ResultFiles& f) {
         surface.empty() ? "" : " (" + surface + ")",
         both.empty() ? "is no better and no worse than the error of the difference" : both));
   }
-  if (const std::string finish = finish_text(f); !finish.empty())
-    clauses.insert(clauses.begin(), "Film, finish and drive with it: " + finish + ".");
-  return fmt::format("Build {} ({}). {}", design_name(best.folder), shape_text(built_design(f)),
-                     join_names(clauses, " "));
+  const std::string finish = finish_text(f);
+  return fmt::format("Build {} ({}){}. {}", design_name(best.folder), shape_text(built_design(f)),
+                     finish.empty() ? "" : " with " + finish, join_names(clauses, " "));
 }
 
 std::string leave_flat(const ResultFiles& f) {
@@ -204,6 +213,24 @@ std::string change_finish(const ResultFiles& f) {
 }
 
 }  // namespace
+
+std::string plain_name(const std::string& path) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kWords{
+      {{"surface.dielectric.0.thickness", "film thickness"},
+       {"surface.dielectric.1.thickness", "thickness of the second film"},
+       {"surface.contact_angle", "contact angle"},
+       {"drive.amplitude", "peak voltage"},
+       {"drive.frequency", "frequency of the drive"}}};
+  for (const auto& [key, words] : kWords) {
+    if (path == key) return std::string(words);
+  }
+  constexpr std::string_view kOfTexture = "texture.";
+  std::string out = path.starts_with(kOfTexture) ? path.substr(kOfTexture.size()) : path;
+  if (out.size() < path.size())
+    std::replace_if(
+        out.begin(), out.end(), [](char c) { return c == '_' || c == '.'; }, ' ');
+  return out;
+}
 
 std::string design_name(const std::string& folder) {
   constexpr std::string_view kFront = "front/";
@@ -246,8 +273,10 @@ std::string shape_text(const Design& design) {
   add(role.depth, array && !array->deep ? "high" : "deep");
   add(role.period, "from one to the next");
   const double* wall = role.wall_angle;
+  std::string out = measures.empty() ? kind : kind + " " + join_names(measures);
+  measures.clear();
   if (wall != nullptr && *wall < kUpright) add(wall, "steep");
-  return measures.empty() ? kind : kind + " " + join_names(measures);
+  return measures.empty() ? out : out + ", walls " + measures.front();
 }
 
 Design built_design(const ResultFiles& f) {
@@ -278,7 +307,8 @@ std::string recommendation(const ResultFiles& f) {
     case Advice::Texture:
       break;
   }
-  return worth_building(f) + yield_sentence(f) + rounding_text(f) + unstable_recommended(f);
+  return worth_building(f) + unfelt_skin_text(f) + yield_sentence(f) + rounding_text(f) +
+         unstable_recommended(f);
 }
 
 }  // namespace papilla::report

@@ -23,12 +23,15 @@ std::optional<std::size_t> checked_place(const ResultFiles& files);
 // How many designs of the grid were judged for it.
 std::string judged_on_grid(const BuiltDesign& build);
 
+// "wall angle" of texture.wall_angle, "film thickness" of surface.dielectric.0.thickness: a key in
+// the words of a sentence.
+std::string plain_name(const std::string& path);
 // "design 06" of front/06.
 std::string design_name(const std::string& folder);
-// "grooves 1.2 um wide, 5.41 um apart, 349 nm deep"
+// "grooves 1.2 um wide, 349 nm deep, 5.41 um from one to the next, walls 88 deg steep"
 std::string shape_text(const Design& design);
-// "surface.contact_angle 63 deg, drive.amplitude 180 V": what the variables say of a surface
-// besides its texture. of: whose numbers these are, for the receipts.
+// "contact angle 63 deg, peak voltage 180 V": what the variables say of a surface besides its
+// texture. of: whose numbers these are, for the receipts.
 std::string surface_text(const ResultFiles& f, const std::string& of, const Point& unit);
 
 }  // namespace papilla::report

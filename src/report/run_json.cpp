@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -69,30 +70,70 @@ const char* advice_name(Advice advice) {
   return "texture";
 }
 
-// The objectives of what is recommended, beside those of its flat surface.
+// The values of a surface in the words of the page: "0.567 ± 0.032 (0.267)".
+Json compared_row(const ResultFiles& f, const std::string& surface, const std::string& of,
+                  const Score& score) {
+  Json values = Json::array();
+  for (std::size_t k = 0; k < score.values.size(); ++k)
+    values.push_back(objective_text(f, of, score, k));
+  if (f.problem.driven()) values.push_back(worst_text(of, score.worst));
+  return {{"surface", surface}, {"values", std::move(values)}};
+}
+
+// What is recommended beside what it was chosen against: flat surfaces, the choice of the fit
+// alone, the design to measure.
+Json compared_json(const ResultFiles& f) {
+  const OptimiseResult& r = f.result;
+  const FinalDesign recommended = recommended_of(f);
+  const std::string name = recommended.flat ? "without texture" : design_name(recommended.folder);
+  Json names = Json::array(), rows = Json::array();
+  for (const StudyObjective& o : f.problem.objectives()) names.push_back(o.name);
+  if (f.problem.driven()) names.emplace_back("worst modulation");
+  rows.push_back(
+      compared_row(f, name + ", recommended", "what is recommended", recommended.confirmed));
+  if (r.flat && !recommended.flat)
+    rows.push_back(
+        compared_row(f, "the same without texture", "the same surface without texture", *r.flat));
+  std::vector<std::size_t> shown{r.best};
+  const auto add = [&](std::size_t design, const char* words, const std::string& of) {
+    if (std::find(shown.begin(), shown.end(), design) != shown.end()) return;
+    shown.push_back(design);
+    rows.push_back(compared_row(f, design_name(r.finalists[design].folder) + ", " + words, of,
+                                r.finalists[design].confirmed));
+  };
+  if (const auto flat = best_flat(f.problem, r))
+    add(*flat, "best flat surface", "the best flat surface of the run");
+  if (r.decision.made())
+    add(r.decision.nominal, "best by the fit alone", "the choice by the fit alone");
+  if (const auto rival = design_to_measure(f))
+    add(*rival, "to measure beside it", "the design to measure");
+  return {{"names", std::move(names)}, {"rows", std::move(rows)}};
+}
+
+// What belongs to what is built beside the numbers of the sheet: materials, the drive.
+Json beside_json(const ResultFiles& f) {
+  const Design built = built_design(f);
+  Json out = Json::array();
+  const std::vector<FilmDielectric>& films = built.surface.dielectric;
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    if (!films[i].material.empty())
+      out.push_back({{"words", films.size() == 1 ? "film" : fmt::format("film {}", i + 1)},
+                     {"text", films[i].material}});
+  }
+  if (const std::string drive = drive_text(built.drive); !drive.empty())
+    out.push_back({{"words", "drive"}, {"text", drive}});
+  return out;
+}
+
+// What the errors of that are, and what is in the names.
 std::string facts_text(const ResultFiles& f) {
-  const FinalDesign design = recommended_of(f);
-  const std::string own = "what is recommended", of_flat = "the same surface without texture";
-  std::vector<std::string> out;
-  for (std::size_t k = 0; k < design.confirmed.values.size(); ++k) {
-    out.push_back(f.problem.objectives()[k].name + " " +
-                  objective_text(f, own, design.confirmed, k));
-    if (f.result.flat)
-      out.back() += fmt::format(" (the same without texture {})",
-                                objective_text(f, of_flat, *f.result.flat, k));
-  }
-  std::string said =
-      (design.flat ? "The flat surface has " : "The best design has ") + join_names(out, ", ");
-  if (f.problem.driven()) {
-    said += ", and a worst modulation of " + worst_text(own, design.confirmed.worst);
-    if (f.result.flat)
-      said += fmt::format(" (without texture {})", worst_text(of_flat, f.result.flat->worst));
-    said += " over fingers and humidity";
-  }
-  said += design.feasible ? "." : ". It does not keep every constraint.";
-  if (f.result.decision.made())
-    said += " ± is numerical, brackets behind it hold what is not known of finger and model.";
+  std::string said = "± is numerical, one standard error";
+  said += f.result.decision.made() ? "; in brackets what is not known of finger and model, one "
+                                     "standard deviation, common to all designs."
+                                   : ".";
   if (f.problem.driven()) said += " Modulation is (F_on - F_off)/F_off.";
+  said += " Variation is the standard deviation over humidity, a share of the mean.";
+  if (!recommended_of(f).feasible) said += " What is recommended does not keep every constraint.";
   return said;
 }
 
@@ -162,6 +203,7 @@ Json run_json(const ResultFiles& f) {
   out["receipts"] = r.has_best() ? Json(kReceiptsName) : Json();
   if (!r.has_best()) return out;
   const FinalDesign recommended = recommended_of(f);
+  out["compared"] = compared_json(f);
   out["facts"] = facts_text(f);
   out["grounds"] = grounds(f);
   out["design"] = recommended.flat ? Json() : Json(recommended.folder);
@@ -172,6 +214,7 @@ Json run_json(const ResultFiles& f) {
   out["finish"] = finish_text(f);
   out["sheet"] = Json::array();
   for (const SheetRow& row : sheet_rows(f)) out["sheet"].push_back(row_json(row));
+  out["beside"] = beside_json(f);
   out["grid"] = f.study.search.rounding;
   out["limits"] = built_limits_json(built_limits(f));
   out["yield"] = yield_json(f);

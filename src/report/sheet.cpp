@@ -99,6 +99,7 @@ Json row_json(const SheetRow& row) {
                        {Stage::Confirm, Stage::Rounding});
   };
   Json out{{"name", row.path},
+           {"words", plain_name(row.path)},
            {"unit", row.unit},
            {"value", stated_value(dimension(" as searched", row.value))},
            {"build", row.build / unit},

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <mutex>
 #include <string_view>
 
 #include "base/constants.h"
@@ -216,6 +220,44 @@ Node table_of(const std::vector<BeliefValue>& values) {
   return out;
 }
 
+// What members may set of a finger, which is all that reading them asks of it.
+Finger without_conditions(Finger finger) {
+  const Finger any;
+  finger.name = any.name, finger.state = any.state, finger.load = any.load;
+  finger.fitted_to = any.fitted_to, finger.uncertainty = any.uncertainty;
+  return finger;
+}
+
+// The belief of a finger, kept while its file and the finger stay: a page asks for those of all
+// fingers of a study with every event of a slider, a search for one with every task.
+Belief last_read(const Finger& finger) {
+  struct Kept {
+    std::filesystem::file_time_type written;
+    std::uintmax_t size = 0;
+    Finger finger;
+    Belief belief;
+  };
+  constexpr std::size_t kMostKept = 16;  // fingers of a population
+  static std::mutex mutex;
+  static std::deque<Kept> kept;
+  std::error_code none;
+  const auto written = std::filesystem::last_write_time(finger.belief, none);
+  const std::uintmax_t size = none ? 0 : std::filesystem::file_size(finger.belief, none);
+  if (none) return read_belief(finger.belief, finger);
+  const Finger asked = without_conditions(finger);
+  {
+    const std::lock_guard lock(mutex);
+    for (const Kept& k : kept) {
+      if (k.written == written && k.size == size && k.finger == asked) return k.belief;
+    }
+  }
+  Belief belief = read_belief(finger.belief, finger);
+  const std::lock_guard lock(mutex);
+  if (kept.size() >= kMostKept) kept.pop_front();
+  kept.push_back({written, size, asked, belief});
+  return belief;
+}
+
 }  // namespace
 
 double Belief::effective_members() const {
@@ -229,7 +271,7 @@ Belief read_belief(const std::string& path, const Finger& finger) {
 }
 
 Belief belief_of(const Finger& finger) {
-  Belief out = read_belief(finger.belief, finger);
+  Belief out = last_read(finger);
   if (!(out.calibrated_for == finger.calibrated_for)) {
     throw InputError({Problem{
         out.file, 0, 0, "calibrated_for",

@@ -64,6 +64,7 @@ TEST(PageFiles, AreAllButThePageItsLockAndItsTimes) {
 
 // Holes of 3 um at 6 um: half of the row through their middles is deep.
 TEST(PageShapes, ASectionGoesThroughTheWidestPlaceOfItsFeatures) {
+  constexpr int kRows = 64;  // 16 over a hole
   const Design design = read_design(kHoles);
   const auto json = plain(shape_json(design.texture));
   const Grid patch = patch_grid(design.texture, 1024);
@@ -71,14 +72,14 @@ TEST(PageShapes, ASectionGoesThroughTheWidestPlaceOfItsFeatures) {
   EXPECT_EQ(section["nx"], 1024);
   EXPECT_EQ(section["ny"], 1);
   EXPECT_DOUBLE_EQ(section["lx"].get<double>(), patch.lx);
-  EXPECT_DOUBLE_EQ(section["ly"].get<double>(), patch.ly / 256);
-  const Heightmap map = generate(design.texture, {1024, 256, patch.lx, patch.ly});
+  EXPECT_DOUBLE_EQ(section["ly"].get<double>(), patch.ly / kRows);
+  const Heightmap map = generate(design.texture, {1024, kRows, patch.lx, patch.ly});
   std::vector<double> means;
-  for (int y = 0; y < 256; ++y) {
+  for (int y = 0; y < kRows; ++y) {
     const auto row = map.z.begin() + static_cast<std::ptrdiff_t>(map.grid.index(0, y));
     means.push_back(std::accumulate(row, row + 1024, 0.0) / 1024);
   }
-  const double place = 256 * section["at"].get<double>() - 0.5;
+  const double place = kRows * section["at"].get<double>() - 0.5;
   EXPECT_EQ(place, std::floor(place));
   const auto least = std::min_element(means.begin(), means.end());
   EXPECT_EQ(place, static_cast<double>(least - means.begin()));
@@ -103,18 +104,16 @@ TEST(PageShapes, PillarsAreRaisedAndWhatIsFlatHasNoMeasures) {
   EXPECT_EQ(json["measures"]["depth"]["name"], "height");
   EXPECT_EQ(json["measures"]["depth"]["value"], get_number(design, "texture.height"));
   EXPECT_EQ(json["measures"]["width"]["value"], get_number(design, "texture.diameter"));
-  // Through the pillars: the row is the highest.
+  // Through the pillars: no row is higher by more than .5 %.
   const Grid patch = patch_grid(design.texture, 1024);
   const Heightmap map = generate(design.texture, {1024, 256, patch.lx, patch.ly});
-  const double alike = 1e-6 * 1024 * get_number(design, "texture.height");  // the first of equals
-  double most = -1;
-  int best = 0;
+  std::vector<double> sums;
   for (int y = 0; y < 256; ++y) {
     const auto row = map.z.begin() + static_cast<std::ptrdiff_t>(map.grid.index(0, y));
-    const double sum = std::accumulate(row, row + 1024, 0.0);
-    if (y == 0 || sum > most + alike) most = sum, best = y;
+    sums.push_back(std::accumulate(row, row + 1024, 0.0));
   }
-  EXPECT_EQ(256 * json["section"]["at"].get<double>() - 0.5, best);
+  const auto row = static_cast<std::size_t>(256 * json["section"]["at"].get<double>());
+  EXPECT_GE(sums.at(row), 0.995 * *std::max_element(sums.begin(), sums.end()));
 }
 
 Fidelity one_patch() {

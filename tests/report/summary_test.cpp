@@ -215,8 +215,8 @@ TEST(BuildSheet, SaysWhatTheTextureGainsAndItsTolerances) {
       << as_read(recommendation(costly.files()));
   costly.result.flat = score(0.49, 0.29, 0.2);  // the texture gains 0.010, within its error
   EXPECT_EQ(as_read(recommendation(costly.files())),
-            "Leave it flat and change the finish (surface.contact_angle 70 deg (50 deg in the "
-            "study)): that "
+            "Leave it flat and change the finish (contact angle 70 deg (50 deg in the study "
+            "file)): that "
             "gains mean(modulation) +0.140 ± 0.013, variation(modulation) -0.160 ± 0.023 (lower is "
             "better); no "
             "texture of this search adds more than the error of the difference.");
@@ -270,7 +270,7 @@ TEST(BuildSheet, SaysWhyAPlaceDoesNotHoldAndTheAlternative) {
       as_read(recommendation(run.files()))
           .find(" Its place does not hold: 1 of 2 checks (smooth: design 02 is better). The "
                 "alternative that holds in 2 of 2 is design 02 (holes 4 um wide, 500 nm deep, "
-                "8 um from one to the next, 88 deg steep)."),
+                "8 um from one to the next, walls 88 deg steep)."),
       std::string::npos)
       << as_read(recommendation(run.files()));
 }
@@ -293,19 +293,23 @@ TEST(BuildSheet, SaysWhatItRestsOn) {
   EXPECT_EQ(
       as_read(said[0]),
       "Judged for degreased fingers (finger.state = \"clean\") at 15 to 75 % relative "
-      "humidity under 0.2 N, driven with 200 V at 5 kHz. Finger \"" +
+      "humidity under 0.2 N, driven with 200 V (peak) at 5 kHz. Finger \"" +
           run.problem.tasks().front().name +
           "\" alone has on natural skin, not degreased mean(modulation) 0.296 in place of "
           "0.500, variation(modulation) 0.627 in place of 0.300, a worst modulation of 0.007, "
           "which nobody feels, in place of 0.250.");
+  EXPECT_NE(as_read(recommendation(run.files()))
+                .find(" But on natural skin, not degreased its worst modulation is 0.007, which "
+                      "nobody feels (finger \"reference\")."),
+            std::string::npos);
   EXPECT_EQ(as_read(said[1]),
-            "In no ±: choices of the model (2 of them, on finger \"reference\"; \"Does the order "
+            "In no ±: choices of the model (2 of them, on finger \"reference\"; the table \"Does "
+            "the order "
             "hold?\" has each): over these it has mean(modulation) 0.252 to 0.922, "
             "variation(modulation) 0.200 to 0.400.");
-  EXPECT_EQ(
-      as_read(said[2]),
-      "Limits leave the making little room, one dimension at a time: texture.depth at most 20 "
-      "nm up (min_wall).");
+  EXPECT_EQ(as_read(said[2]),
+            "Limits leave the making little room, one dimension at a time: depth at most 20 nm up "
+            "(min_wall at least 0.4 um).");
   EXPECT_EQ(as_read(said[3]),
             "At its worst, over fingers and humidity, the modulation is 0.053: below 0.2, the "
             "least relative difference of friction that people notice (Fehlberg 2022), it is not "
@@ -323,7 +327,7 @@ TEST(BuildSheet, ComparesWithTheBestFlatSurfaceOfTheRunToo) {
   EXPECT_NE(
       as_read(recommendation(run.files()))
           .find(
-              "Against the best flat surface of this run, design 02 (surface.contact_angle "
+              "Against the best flat surface of this run, design 02 (contact angle "
               "40 deg), it gains variation(modulation) -0.600 ± 0.023 (lower is better) and costs "
               "mean(modulation) -0.224 ± 0.013."),
       std::string::npos)
@@ -360,11 +364,12 @@ TEST(BuildSheet, ForProgramsIsInTheUnitsOfTheStudy) {
   EXPECT_EQ(json["stopped_by_the_clock"], false);
   EXPECT_EQ(json["driven"], true);
   EXPECT_EQ(json["remarks"].size(), 1u);
-  EXPECT_EQ(json["finish"], "surface.contact_angle 70 deg (50 deg in the study)");
+  EXPECT_EQ(json["finish"], "contact angle 70 deg (50 deg in the study file)");
   expect_same(json["shown"]["mean(modulation)"], {{"scale", 1}, {"unit", ""}}, "shown");
   expect_same(
       json["sheet"][0],
       {{"name", "texture.period"},
+       {"words", "period"},
        {"unit", "um"},
        {"value", 5},
        {"build", 5},
@@ -389,6 +394,18 @@ TEST(BuildSheet, ForProgramsIsInTheUnitsOfTheStudy) {
                step("flat, finish and drive of the best", 0.4, 0.35),
                step("best, with its texture", 0.5, 0.3)},
               "steps");
+  expect_same(json["compared"],
+              {{"names", {"mean(modulation)", "variation(modulation)", "worst modulation"}},
+               {"rows",
+                {{{"surface", "design 01, recommended"},
+                  {"values", {"0.500 ± 0.013", "0.300 ± 0.023", "0.250"}}},
+                 {{"surface", "the same without texture"},
+                  {"values", {"0.400 ± 0.013", "0.350 ± 0.023", "0.200"}}}}}},
+              "compared");
+  expect_same(json["beside"],
+              {{{"words", "film"}, {"text", "SiO2"}},
+               {{"words", "drive"}, {"text", "200 V (peak) at 5 kHz"}}},
+              "beside");
   run.result.interrupted = true;
   EXPECT_FALSE(as_read(run_json(run.files())).contains("advice"));
 }
@@ -524,6 +541,12 @@ TEST(RunSummary, EveryNumberOfTheFirstScreenHasAReceipt) {
     check(key, json[key].get<std::string>());
   for (const auto& text : json["grounds"]) check("grounds", text.get<std::string>());
   for (const auto& text : json["remarks"]) check("remarks", text.get<std::string>());
+  for (const auto& row : json["compared"]["rows"]) {
+    for (const auto& text : row["values"]) check("compared", text.get<std::string>());
+  }
+  for (const auto& row : json["beside"]) {
+    if (row["words"] == "drive") check("beside", row["text"].get<std::string>());
+  }
   for (const auto& row : json["sheet"]) {
     for (const char* way : {"build", "down", "up"})
       check("sheet", row["text"][way].get<std::string>());

@@ -129,6 +129,7 @@ TEST(UndrivenRun, WhatIsBuiltIsOnTheGridOfTheFab) {
   expect_same(
       *row,
       {{"name", "texture.depth"},
+       {"words", "depth"},
        {"unit", "nm"},
        {"value", 304},
        {"build", 300},
@@ -179,8 +180,8 @@ TEST(UndrivenRun, AnAdviceNeedsAGainBeyondItsError) {
   run.result.flat_before = score(0.0825, 0.255, 0, 0);
   EXPECT_EQ(advice(0.08, 0.25), Advice::Finish);
   EXPECT_EQ(as_read(recommendation(run.files())),
-            "Leave it flat and change the finish (surface.contact_angle 70 deg (50 deg in the "
-            "study)): that "
+            "Leave it flat and change the finish (contact angle 70 deg (50 deg in the study "
+            "file)): that "
             "gains mean(friction) -2.5 ± 2 mN (lower is better); no texture of this search adds "
             "more than the error of the "
             "difference.");
@@ -210,8 +211,8 @@ TEST(UndrivenRun, AFlatAdviceNamesWhatOtherTexturesGain) {
       "(lower is better) and "
       "costs variation(friction) +0.050 ± 0.012 (lower is better).";
   EXPECT_EQ(as_read(recommendation(run.files())),
-            "Leave it flat and change the finish (surface.contact_angle 70 deg (50 deg in the "
-            "study)): that "
+            "Leave it flat and change the finish (contact angle 70 deg (50 deg in the study "
+            "file)): that "
             "gains mean(friction) -3 ± 2 mN (lower is better); the texture of design 01, the best "
             "design, adds no "
             "more than the error of the difference." +

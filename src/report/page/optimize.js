@@ -214,9 +214,9 @@ function showProgress() {
 
 const showMaps = (index) => mapFigures($('maps'), data.fields[index].maps);
 
+const people = (text) => text.replace(/um\b/g, 'µm').replace(/ deg\b/g, '°');
 // The build sheet of what is recommended; other designs have their dimensions alone.
 function showDimensions(d) {
-  const words = (path) => path.replace(/^texture\./, '').replace(/[._]/g, ' ');
   const sheet = state.design === 'best' || state.design === twin ? run.sheet : null;
   if (!sheet) {
     const rows = sectionOf(d.toml, 'texture'), angle = /contact_angle = "([\d.]+) deg"/.exec(d.toml);
@@ -224,9 +224,8 @@ function showDimensions(d) {
     table($('dimensions'), ['Dimension', 'As searched'], rows, [1]);
     return;
   }
-  const people = (text) => text.replace(/um\b/, 'µm').replace(/ deg\b/, '°');
   table($('dimensions'), ['Dimension', 'Build', 'Tolerance down', 'up', 'As searched'],
-    sheet.map((r) => [words(r.name) + (r.bound ? ` (on the ${r.bound} bound)` : ''), people(r.text.build), people(r.text.down), people(r.text.up), people(`${round(r.value, 6)} ${r.unit}`)]), [1, 2, 3, 4]);
+    sheet.map((r) => [r.words + (r.bound ? ` (on the ${r.bound} bound)` : ''), people(r.text.build), people(r.text.down), people(r.text.up), people(`${round(r.value, 6)} ${r.unit}`)]), [1, 2, 3, 4]);
 }
 // Each limit of the study and what the design shown has of it.
 function showLimits(d) {
@@ -294,6 +293,11 @@ said($('remarks'), run.remarks);
 $('grid').textContent = run.build ? run.build.said.replace(/`/g, '') : '';
 $('yield').textContent = run.yield ? run.yield.said : '';
 $('facts').textContent = run.facts || '';
+$('first').hidden = !run.compared;
+if (run.compared) {
+  table($('tobuild'), ['To build', ''], run.sheet.map((r) => [r.words, people(r.text.build)]).concat(run.beside.map((r) => [r.words, people(r.text)])), [1]);
+  table($('compared'), ['Confirmed'].concat(run.compared.names), run.compared.rows.map((r) => [r.surface].concat(r.values)), run.compared.names.map((n, i) => i + 1));
+}
 $('receipts').hidden = !run.receipts;
 options($('design'), Object.keys(data.designs).map((n) => [n, n !== 'best' ? label(n) : twin !== n ? `best (${label(twin)})` : run.design === null ? 'flat, as recommended' : label(n)]), select);
 options($('finger'), [['mean', 'mean over fingers']].concat(best.tasks.map((t, i) => [i, t.name])), (value) => { state.finger = value; showHumidity(); showBudget(); });

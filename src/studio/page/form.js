@@ -16,8 +16,8 @@ export const machine = (text) => text.replace(/µm|μm/g, 'um').replace(/°/g, '
 const rows = {};
 let gesture = 1, shape = '', atHand = 0;  // revision of the session that is shown
 
-// ---- sending: the newest position counts, the next goes out when the one before is drawn ----
-const wait = { busy: false, next: null, timer: 0 };
+// ---- sending: the newest position counts, the next goes out when the one before is answered ----
+const wait = { busy: false, next: null, timer: 0, revision: Infinity };
 export const latency = { events: [], done: [] };
 let asked = [];  // { revision, times } that wait to be drawn
 
@@ -53,7 +53,9 @@ async function deliver(change) {
       update(row.key);
     }
     asked.push({ revision, times: change.times });
-    if (latest >= revision) drawn(latest);
+    wait.revision = revision;
+    answered(latest);
+    drawn(shown);
   } catch (error) {
     if (row) say(row, people(error.message));
     else notice(`${called(change.path)}: ${error.message}`);
@@ -61,21 +63,25 @@ async function deliver(change) {
   }
 }
 function release() {
+  clearTimeout(wait.timer);
   wait.busy = false;
+  wait.revision = Infinity;
   const next = wait.next;
   wait.next = null;
   if (next) deliver(next);
 }
-let latest = 0;
+let latest = 0, shown = 0;
+// The answer to this revision is here: the next is worked out while it is drawn.
+export function answered(revision) {
+  latest = Math.max(latest, revision);
+  if (latest >= wait.revision) release();
+}
 // The curve of this revision is on the screen.
 export function drawn(revision) {
-  latest = Math.max(latest, revision);
-  const now = performance.now(), ready = asked.filter((a) => a.revision <= latest);
-  if (!ready.length) return;
-  asked = asked.filter((a) => a.revision > latest);
+  shown = Math.max(shown, revision);
+  const now = performance.now(), ready = asked.filter((a) => a.revision <= shown);
+  asked = asked.filter((a) => a.revision > shown);
   ready.forEach((a) => a.times.forEach((t) => latency.done.push(now - t)));
-  clearTimeout(wait.timer);
-  release();
 }
 
 // ---- one key ----

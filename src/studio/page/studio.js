@@ -1,7 +1,7 @@
 // The studio: what the server tells goes to the parts of the page, what the hand does goes back.
 import { $, onLook } from '../plots/look.js';
 import { charts, dropCharts } from '../plots/charts.js';
-import { drawn, latency, showForm, showKinds, showSlopes, startFilter, startSlopes } from './form.js';
+import { answered, drawn, latency, showForm, showKinds, showSlopes, startFilter, startSlopes } from './form.js';
 import { showAnswer, showSessionPins } from './answer.js';
 import { exportDialog, historyDialog, openDialog, saveDialog, saving, startFiles, state } from './files.js';
 import { showDimensions, showLook, showShape, startScene } from './scene.js';
@@ -32,6 +32,7 @@ function showSession(now) {
 
 function told(answer) {
   if (session && answer.revision < session.revision && answer.step !== 'first') return;
+  answered(answer.revision);
   showAnswer(answer);
   requestAnimationFrame(() => setTimeout(() => drawn(answer.revision)));
 }
