@@ -1,10 +1,11 @@
 // Planted truths: what recommendations are worth where the finger is one member of a belief that
 // the recommendation does not know; CSV on standard output, a truth a row, then the sums.
 //   decision_bench FILE FRONT MOST MEMBERS TRUTHS
-//                    the designs of the table FRONT, at most MOST, for the first finger of the
-//                    study FILE, at level draft; MEMBERS are drawn about that finger, a fifth with
-//                    the first droplet step 50 nm, a fifth with air by emission; each of the first
-//                    TRUTHS is left out of the belief and judged on other skins
+//                    the designs of the table FRONT, at most MOST, at level draft; each of the
+//                    first TRUTHS members is left out of the belief and judged on other skins.
+//                    MEMBERS 0: the study FILE as it is, with its fingers and its own belief; else
+//                    so many are drawn about its first finger, a fifth with the first droplet step
+//                    50 nm, a fifth with air by emission
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,9 +45,10 @@ Belief planted(const Finger& finger, int members) {
 
 Study study_of(const std::string& file, int members) {
   Study study = read_study(file);
+  study.design.accuracy.level = AccuracyLevel::Draft;
+  if (members == 0) return study;
   if (!study.population.empty()) study.design.finger = study.population.front();
   study.population.clear();
-  study.design.accuracy.level = AccuracyLevel::Draft;
   const std::string path = temporary("planted_belief.toml");
   std::ofstream(path) << belief_text(planted(study.design.finger, members));
   study.design.finger.belief = path;

@@ -32,10 +32,13 @@ inline std::vector<Point> read_front(const std::string& path, const StudyProblem
   const auto column = [&](const std::string& name) {
     return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
   };
-  const auto value_of = [&](const Variable& v, const std::vector<std::string>& row) {
+  const Point own = problem.space().value(problem.space().unit_of_study());
+  const auto value_of = [&](std::size_t k, const std::vector<std::string>& row) {
+    const Variable& v = problem.study().variables[k];
     const std::string name = v.unit.empty() ? v.path : v.path + " [" + v.unit + "]";
     if (column(name) >= row.size()) throw InputError(path + ": no column `" + name + "`");
     const std::string& cell = row[column(name)];
+    if (cell.empty()) return own[k];  // a measure that this kind of texture has not
     const auto& kinds = texture_kinds();
     return v.is_kind()
                ? static_cast<double>(std::find(kinds.begin(), kinds.end(), cell) - kinds.begin())
@@ -47,7 +50,7 @@ inline std::vector<Point> read_front(const std::string& path, const StudyProblem
     const std::vector<std::string> row = cells_of(line);
     if (on_front < header.size() && row.at(on_front) != "yes") continue;
     Point value;
-    for (const Variable& v : problem.study().variables) value.push_back(value_of(v, row));
+    for (std::size_t k = 0; k < own.size(); ++k) value.push_back(value_of(k, row));
     all.push_back(problem.space().snapped(problem.space().unit(value)));
   }
   for (std::size_t i = 0; i < std::min(most, all.size()); ++i)

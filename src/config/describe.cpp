@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
@@ -100,6 +102,13 @@ int FieldCollector::begin_list(const FieldSpec& spec, int current, bool& replace
   add(spec, "a list of sections", "", "");
   rows.back().section = true;
   return PathVisitor::begin_list(spec, current, replace);
+}
+
+bool NumberCollector::begin_section(const FieldSpec& spec) {
+  const bool kept = !outermost() || sections_.empty() ||
+                    std::find(sections_.begin(), sections_.end(), spec.key) != sections_.end();
+  PathVisitor::begin_section(spec);
+  return kept;
 }
 
 void NumberCollector::number(const NumberSpec& spec, double& si) {

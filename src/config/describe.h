@@ -42,6 +42,7 @@ class PathVisitor : public FieldVisitor {
   void end_list() override { paths_.pop_back(); }
 
   std::string join(const char* key) const;
+  bool outermost() const { return paths_.size() == 1; }
 
  private:
   std::vector<std::string> paths_;
@@ -70,10 +71,12 @@ class FieldCollector final : public PathVisitor {
   void add(const FieldSpec& spec, std::string kind, std::string range, std::string value);
 };
 
-// Numbers alone: quick enough for the inner loop of a search.
+// Numbers alone: quick enough for the inner loop of a search. sections: only those of the outermost
+// level; empty: all.
 class NumberCollector final : public PathVisitor {
  public:
-  using PathVisitor::PathVisitor;
+  explicit NumberCollector(std::string path, std::vector<std::string> sections = {})
+      : PathVisitor(std::move(path)), sections_(std::move(sections)) {}
 
   std::vector<NumberField> found;
 
@@ -85,6 +88,12 @@ class NumberCollector final : public PathVisitor {
   void path(const FieldSpec&, std::string&) override {}
   void choice(const FieldSpec&, const std::vector<std::string>&, int&) override {}
   using FieldVisitor::choice;
+
+ protected:
+  bool begin_section(const FieldSpec& spec) override;
+
+ private:
+  std::vector<std::string> sections_;
 };
 
 template <class S>
@@ -99,6 +108,13 @@ std::vector<FieldRow> field_rows(const S& s, const std::string& path = "") {
 template <class S>
 std::vector<NumberField> number_fields(S& s, const std::string& path = "") {
   NumberCollector collector(path);
+  fields(collector, s);
+  return std::move(collector.found);
+}
+// Those of some of its sections, and those that are in none.
+template <class S>
+std::vector<NumberField> number_fields_in(S& s, const std::vector<std::string>& sections) {
+  NumberCollector collector("", sections);
   fields(collector, s);
   return std::move(collector.found);
 }

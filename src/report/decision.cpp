@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "config/describe.h"
 #include "metrics/shown.h"
+#include "report/grounds.h"
 #include "report/json.h"
 #include "report/recommendation.h"
 #include "report/run_numbers.h"
@@ -233,6 +234,17 @@ std::string measure_sentence(const ResultFiles& f) {
       f.problem.driven() ? " with the drive off and on" : "", worth_name(f));
 }
 
+// " (0.292 there, where design 06 has 0.272)": the worst modulations that the fit compares.
+std::string at_the_fit(const ResultFiles& f) {
+  const Decision& d = decision_of(f);
+  if (d.rule.kind != PickRule::Kind::Worst) return {};
+  const auto worst = [&](std::size_t design) {
+    return worst_text(name_of(f, design), f.result.finalists[design].confirmed.worst);
+  };
+  return fmt::format(" ({} there, where {} has {})", worst(d.nominal), name_of(f, d.best),
+                     worst(d.best));
+}
+
 // The choice by the numbers of the fit, and what is the best more often and loses more where it is
 // not: one design in most cases.
 std::string others_sentence(const ResultFiles& f) {
@@ -248,10 +260,10 @@ std::string others_sentence(const ResultFiles& f) {
   std::string out;
   if (d.nominal != d.best)
     out += fmt::format(
-        " By the finger and the model as fitted alone, {}{} would be chosen; over the members it "
+        " By the finger and the model as fitted alone, {}{} would be chosen{}; over the members it "
         "stays {} behind the best on average.",
         name_of(f, d.nominal), any && often == d.nominal ? ", " + more_often() + "," : "",
-        regret_text(f, d.nominal));
+        at_the_fit(f), regret_text(f, d.nominal));
   if (any && often != d.nominal)
     out += fmt::format(" Not chosen, but {}, is {}, with an expected regret of {}.", more_often(),
                        name_of(f, often), regret_text(f, often));

@@ -254,8 +254,16 @@ std::string unfelt_skin_text(const ResultFiles& f) {
     return {};
   const StabilityVariant& other = s.variants[*s.other_skin];
   if (*place >= other.worst.size() || !(other.worst[*place] < kNoticed)) return {};
-  return fmt::format(" But on {} its worst modulation is {}, which nobody feels (finger \"{}\").",
-                     other.name, checked_worst(other, *place), f.problem.tasks().front().name);
+  const auto best = static_cast<std::size_t>(
+      std::max_element(other.worst.begin(), other.worst.end()) - other.worst.begin());
+  const std::string others =
+      other.worst[best] < kNoticed
+          ? "nor that of any other design here"
+          : fmt::format("{} has {} there", design_name(f.result.finalists[best].folder),
+                        checked_worst(other, best));
+  return fmt::format(
+      " But on {} its worst modulation is {}, which nobody feels, {} (finger \"{}\").", other.name,
+      checked_worst(other, *place), others, f.problem.tasks().front().name);
 }
 
 std::vector<std::string> grounds(const ResultFiles& f) {

@@ -218,7 +218,7 @@ std::string plain_name(const std::string& path) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kWords{
       {{"surface.dielectric.0.thickness", "film thickness"},
        {"surface.dielectric.1.thickness", "thickness of the second film"},
-       {"surface.contact_angle", "contact angle"},
+       {"surface.contact_angle", "contact angle of water"},
        {"drive.amplitude", "peak voltage"},
        {"drive.frequency", "frequency of the drive"}}};
   for (const auto& [key, words] : kWords) {
@@ -269,7 +269,7 @@ std::string shape_text(const Design& design) {
             " " + word);
     }
   };
-  add(role.width, "wide");
+  add(role.width, array && array->deep ? "wide at the top" : "wide");
   add(role.depth, array && !array->deep ? "high" : "deep");
   add(role.period, "from one to the next");
   const double* wall = role.wall_angle;

@@ -110,7 +110,8 @@ Json compared_json(const ResultFiles& f) {
   return {{"names", std::move(names)}, {"rows", std::move(rows)}};
 }
 
-// What belongs to what is built beside the numbers of the sheet: materials, the drive.
+// What belongs to what is built beside the numbers of the sheet: what they leave between the
+// features, materials, the drive.
 Json beside_json(const ResultFiles& f) {
   const Design built = built_design(f);
   Json out = Json::array();
@@ -120,6 +121,12 @@ Json beside_json(const ResultFiles& f) {
       out.push_back({{"words", films.size() == 1 ? "film" : fmt::format("film {}", i + 1)},
                      {"text", films[i].material}});
   }
+  const double wall = facts(built.texture).margins.min_wall;
+  if (std::isfinite(wall) && facts(built.texture).relief.present)
+    out.push_back({{"words", "narrowest wall"},
+                   {"text", stated(bare_number("narrowest wall", 1e9 * wall, "nm", kChosen,
+                                               {Stage::Confirm, Stage::Rounding}),
+                                   in_unit(wall, "nm", 4))}});
   if (const std::string drive = drive_text(built.drive); !drive.empty())
     out.push_back({{"words", "drive"}, {"text", drive}});
   return out;
@@ -127,7 +134,7 @@ Json beside_json(const ResultFiles& f) {
 
 // What the errors of that are, and what is in the names.
 std::string facts_text(const ResultFiles& f) {
-  std::string said = "± is numerical, one standard error";
+  std::string said = "Computed, not measured. ± is numerical, one standard error";
   said += f.result.decision.made() ? "; in brackets what is not known of finger and model, one "
                                      "standard deviation, common to all designs."
                                    : ".";

@@ -8,6 +8,9 @@
 namespace papilla::search {
 DesignSpace::DesignSpace(const Study& study) : study_(study) {
   for (const Variable& v : study.variables) {
+    const std::string section = v.path.substr(0, v.path.find('.'));
+    if (std::find(sections_.begin(), sections_.end(), section) == sections_.end())
+      sections_.push_back(section);
     Dimension d{v.low, v.high, v.choices, !v.is_kind(), v.excluded};
     std::sort(d.choices.begin(), d.choices.end());
     cube_.dimensions.push_back(d);
@@ -32,7 +35,7 @@ Design DesignSpace::design_of(const std::vector<double>& v) const {
     if (study_.variables[i].is_levels())
       out.texture = with_levels(std::move(out.texture), static_cast<int>(v[i]));
   }
-  const std::vector<NumberField> known = number_fields(out);
+  const std::vector<NumberField> known = number_fields_in(out, sections_);
   for (std::size_t i = 0; i < v.size(); ++i) {
     const Variable& variable = study_.variables[i];
     if (!variable.is_kind() && !variable.is_levels() && acts(known, i))
@@ -44,7 +47,7 @@ Design DesignSpace::design_of(const std::vector<double>& v) const {
 Point DesignSpace::unit_of_study() const {
   Point value;
   Design copy = study_.design;
-  const std::vector<NumberField> known = number_fields(copy);
+  const std::vector<NumberField> known = number_fields_in(copy, sections_);
   for (const Variable& v : study_.variables) {
     if (v.is_kind()) {
       value.push_back(static_cast<double>(study_.design.texture.kind.index()));
@@ -108,7 +111,7 @@ Point DesignSpace::collapsed(const Point& unit) const {
   const auto has_relief = [&](const std::string& path) {
     return facts(part_at(d.texture, path)).relief.present;
   };
-  const std::vector<NumberField> known = number_fields(d);
+  const std::vector<NumberField> known = number_fields_in(d, sections_);
   for (std::size_t i = 0; i < value.size(); ++i) {
     const Variable& v = study_.variables[i];
     if (!v.path.starts_with("texture.") || v.is_kind() || v.is_levels()) continue;

@@ -55,7 +55,8 @@ class DesignSpace {
 
   const Study& study_;
   Space cube_;
-  Point own_value_;  // of the study's own design
+  Point own_value_;                    // of the study's own design
+  std::vector<std::string> sections_;  // of the variables
 };
 
 }  // namespace papilla::search

@@ -179,12 +179,13 @@ TEST(UndrivenRun, AnAdviceNeedsAGainBeyondItsError) {
   EXPECT_EQ(advice(0.08, 0.25), Advice::LeaveFlat);
   run.result.flat_before = score(0.0825, 0.255, 0, 0);
   EXPECT_EQ(advice(0.08, 0.25), Advice::Finish);
-  EXPECT_EQ(as_read(recommendation(run.files())),
-            "Leave it flat and change the finish (contact angle 70 deg (50 deg in the study "
-            "file)): that "
-            "gains mean(friction) -2.5 ± 2 mN (lower is better); no texture of this search adds "
-            "more than the error of the "
-            "difference.");
+  EXPECT_EQ(
+      as_read(recommendation(run.files())),
+      "Leave it flat and change the finish (contact angle of water 70 deg (50 deg in the study "
+      "file)): that "
+      "gains mean(friction) -2.5 ± 2 mN (lower is better); no texture of this search adds "
+      "more than the error of the "
+      "difference.");
   run.result.flat_before.reset();
   run.result.finalists[0].unit[2] = run.problem.space().unit_of_study()[2];
   EXPECT_EQ(advice(0.08, 0.25), Advice::LeaveFlat);  // there is no other finish
@@ -210,13 +211,14 @@ TEST(UndrivenRun, AFlatAdviceNamesWhatOtherTexturesGain) {
       " What other textures of the front change: design 02 gains mean(friction) -31.5 ± 2 mN "
       "(lower is better) and "
       "costs variation(friction) +0.050 ± 0.012 (lower is better).";
-  EXPECT_EQ(as_read(recommendation(run.files())),
-            "Leave it flat and change the finish (contact angle 70 deg (50 deg in the study "
-            "file)): that "
-            "gains mean(friction) -3 ± 2 mN (lower is better); the texture of design 01, the best "
-            "design, adds no "
-            "more than the error of the difference." +
-                gained);
+  EXPECT_EQ(
+      as_read(recommendation(run.files())),
+      "Leave it flat and change the finish (contact angle of water 70 deg (50 deg in the study "
+      "file)): that "
+      "gains mean(friction) -3 ± 2 mN (lower is better); the texture of design 01, the best "
+      "design, adds no "
+      "more than the error of the difference." +
+          gained);
   run.result.flat_before = score(0.0815, 0.25, 0, 0);
   EXPECT_EQ(as_read(recommendation(run.files())),
             "Leave it flat: the texture of design 01, the best design, adds no more than the error "

@@ -157,7 +157,7 @@ TEST(Sheet, WithoutTheStudysOwnSurfaceTheFinishIsNotJudged) {
   const ResultFiles files{"", study, problem, history, result, ""};
   EXPECT_EQ(advice_of(problem, result), Advice::Finish);
   EXPECT_NE(report::as_read(recommendation(files))
-                .find("What the finish does (surface.contact_angle 70 deg (50 deg"),
+                .find("What the finish does (contact angle of water 70 deg (50 deg"),
             std::string::npos)
       << report::as_read(recommendation(files));
   result.flat_before = score(0.4, 0.4);

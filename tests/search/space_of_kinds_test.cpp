@@ -153,6 +153,22 @@ TEST(LimitBorders, EachLookHasItsLimit) {
       << reason;
 }
 
+// Numbers of some sections are those of all that stand in them, at the same places.
+TEST(NumberFields, OfSomeSectionsAreThoseOfAllThatStandThere) {
+  Design design = read_design(PAPILLA_DESIGNS_DIR "/m3_glass/directional.toml");
+  std::vector<NumberField> wanted = number_fields(design);
+  std::erase_if(wanted, [](const NumberField& f) {
+    return !f.path.starts_with("surface.") && !f.path.starts_with("texture.");
+  });
+  const std::vector<NumberField> some = number_fields_in(design, {"surface", "texture"});
+  ASSERT_EQ(some.size(), wanted.size());
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    EXPECT_EQ(some[i].path, wanted[i].path);
+    EXPECT_EQ(some[i].value, wanted[i].value);
+  }
+  EXPECT_EQ(number_fields_in(design, {}).size(), number_fields(design).size());
+}
+
 // A corner above 1 Hz is felt: 1 / (2 pi eps0 eps rho) of a layer or of the gap, or the finger's.
 TEST(LimitBorders, AFrequencyIsFeltAboveACornerOfOneHertz) {
   Design design = read_design(PAPILLA_DESIGNS_DIR "/m3_samples/a3h600.toml");

@@ -227,12 +227,13 @@ function showDimensions(d) {
   table($('dimensions'), ['Dimension', 'Build', 'Tolerance down', 'up', 'As searched'],
     sheet.map((r) => [r.words + (r.bound ? ` (on the ${r.bound} bound)` : ''), people(r.text.build), people(r.text.down), people(r.text.up), people(`${round(r.value, 6)} ${r.unit}`)]), [1, 2, 3, 4]);
 }
+const limitRows = (limits) => limits.map((l) => [l.name.replace(/_/g, ' '), l.asked, l.text + (l.kept ? '' : ': broken')]);
 // Each limit of the study and what the design shown has of it.
 function showLimits(d) {
   const built = state.design === 'best' || state.design === twin;
   const limits = (built ? run.limits : d.limits) || [];
   $('limits').parentElement.hidden = !limits.length;
-  table($('limits'), ['Limit', 'Asked for', built ? 'As built' : 'This design'], limits.map((l) => [l.name.replace(/_/g, ' '), l.asked, l.text + (l.kept ? '' : ': broken')]), [2]);
+  table($('limits'), ['Limit', 'Asked for', built ? 'As built' : 'This design'], limitRows(limits), [2]);
 }
 // From the study's flat surface to the best one, step by step.
 function showSteps() {
@@ -296,7 +297,8 @@ $('facts').textContent = run.facts || '';
 $('first').hidden = !run.compared;
 if (run.compared) {
   table($('tobuild'), ['To build', ''], run.sheet.map((r) => [r.words, people(r.text.build)]).concat(run.beside.map((r) => [r.words, people(r.text)])), [1]);
-  table($('compared'), ['Confirmed'].concat(run.compared.names), run.compared.rows.map((r) => [r.surface].concat(r.values)), run.compared.names.map((n, i) => i + 1));
+  table($('compared'), ['Surface'].concat(run.compared.names), run.compared.rows.map((r) => [r.surface].concat(r.values)), run.compared.names.map((n, i) => i + 1));
+  if (run.limits.length) table($('kepthere'), ['Limit', 'Asked for', 'As built'], limitRows(run.limits), [2]);
 }
 $('receipts').hidden = !run.receipts;
 options($('design'), Object.keys(data.designs).map((n) => [n, n !== 'best' ? label(n) : twin !== n ? `best (${label(twin)})` : run.design === null ? 'flat, as recommended' : label(n)]), select);
