@@ -126,6 +126,23 @@ void reference(GdsStream& gds, const LayoutReference& r) {
   gds.empty(kElementEnd);
 }
 
+// An array in pieces that one record holds.
+std::vector<LayoutReference> parts_of(const LayoutReference& whole) {
+  constexpr long kMost = 32767;  // columns, and rows
+  std::vector<LayoutReference> out;
+  for (long row = 0; row < whole.rows; row += kMost) {
+    for (long column = 0; column < whole.columns; column += kMost) {
+      LayoutReference part = whole;
+      part.x = static_cast<std::int32_t>(whole.x + column * whole.step_x);
+      part.y = static_cast<std::int32_t>(whole.y + row * whole.step_y);
+      part.columns = std::min(kMost, whole.columns - column);
+      part.rows = std::min(kMost, whole.rows - row);
+      out.push_back(part);
+    }
+  }
+  return out;
+}
+
 constexpr std::string_view kAfterName = ": ";  // of a layer, before its label
 
 void label(GdsStream& gds, const LayoutLayer& layer) {
@@ -294,13 +311,7 @@ void write_gds(const std::string& path, const Layout& layout) {
     gds.text(kCellName, cell.name);
     for (const LayoutPolygon& polygon : cell.polygons) boundary(gds, polygon);
     for (const LayoutReference& r : cell.references) {
-      if (r.columns > 32767 || r.rows > 32767) {
-        throw InputError(fmt::format(
-            "{} x {} cells are more than one GDSII array holds (32767 per side); take OASIS, "
-            "--format oasis",
-            r.columns, r.rows));
-      }
-      reference(gds, r);
+      for (const LayoutReference& part : parts_of(r)) reference(gds, part);
     }
     if (&cell == &layout.cells.back()) {
       for (const LayoutLayer& layer : layout.layers) label(gds, layer);

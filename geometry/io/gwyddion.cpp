@@ -53,7 +53,8 @@ std::unique_ptr<HeightRows> open_by_gwyddion(const std::string& path, const std:
   std::error_code missing;
   if (end == ChildEnd::Failed || !fs::exists(first, missing)) {
     throw fail(
-        "Gwyddion finds no map in it; save it in the instrument's program as .gwy, .x3p or .sur");
+        "Gwyddion finds no map in it; save it in the instrument's program as .gwy, .x3p or .sur, a "
+        "table of numbers as .npy (in metres) or .gsf");
   }
   std::string bytes = read_bytes(first, kMostRead);
   const std::size_t maps = count_of_gwy_maps(path, bytes);

@@ -59,18 +59,20 @@ class Response:
         return document
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """One row per humidity, a column per quantity and one, ``..._error``, per error; their SI units are
-        ``frame.attrs["units"]``. Needs pandas."""
+        """One row per humidity, a column per quantity and one each for its ``..._error``, ``..._numerical`` and
+        ``..._model``; their SI units are ``frame.attrs["units"]``. Needs pandas."""
         import pandas
 
         columns: dict[str, Any] = {"humidity": self.humidity}
         for name, quantity in self._quantities.items():
             columns[name] = quantity.value
             columns[name + "_error"] = quantity.error
+            columns[name + "_numerical"] = quantity.numerical
+            columns[name + "_model"] = quantity.model
         columns["sound"] = list(self.sound)
         frame = pandas.DataFrame(columns)
-        frame.attrs["units"] = {name: _UNITS[name.removesuffix("_error")] for name in columns
-                                if name.removesuffix("_error") in self._quantities}
+        frame.attrs["units"] = {name + part: _UNITS[name] for name in self._quantities
+                                for part in ("", "_error", "_numerical", "_model")}
         return frame
 
     def to_xarray(self) -> xarray.Dataset:

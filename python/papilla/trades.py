@@ -151,11 +151,13 @@ class Calibration:
                     "table": texts["fit.md"], "json": texts["fit.json"]})
 
     def apply(self, design: Design) -> Design:
-        """The design under the fitted finger: all of its own finger is replaced. Raises InputError."""
+        """The design under the fitted finger, at the design's own load, state and touch time: all else of its own finger
+        is replaced. Raises InputError."""
         if not isinstance(design, Design):
             raise wrong("design", f"expected a Design, got {type(design).__name__}")
         fitted = {key: value for key, value in tomllib.loads(self.finger).items() if key != "schema_version"}
-        return design.with_({"finger": fitted.get("finger", fitted)})
+        conditions = ("load", "state", "touch_time")
+        return design.with_({"finger": {key: value for key, value in fitted.get("finger", fitted).items() if key not in conditions}})
 
     def to_dict(self) -> dict[str, Any]:
         """What ``papilla calibrate --json`` prints."""

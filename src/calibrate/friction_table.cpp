@@ -161,7 +161,11 @@ class FrictionReader {
       }
     }
     if (!(value >= low && value <= high)) {
-      problem(kColumns[column], fmt::format("{} lies outside {} to {}", text, low, high),
+      problem(kColumns[column],
+              fmt::format("{} lies outside {} to {}{}", text, low, high,
+                          column == kHumidity && value >= 2 && value <= 100
+                              ? fmt::format(": write it as \"{} %\"", text)
+                              : std::string()),
               row.place(column));
     }
     return value;

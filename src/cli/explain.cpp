@@ -20,15 +20,49 @@
 namespace papilla::cli {
 namespace {
 
+// "texture.period 4 um to 12 um", "texture.type flat, grating, hole_array".
+std::string range_text(const Variable& v) {
+  if (v.choices.empty())
+    return fmt::format("{} {} to {}", v.path, variable_text(v, v.low), variable_text(v, v.high));
+  std::vector<std::string> choices;
+  for (const double choice : v.choices) choices.push_back(variable_text(v, choice));
+  return v.path + " " + join_names(choices);
+}
+
+// What a study varies, wants and keeps: much of it may be its base's.
+std::string aims_text(const Study& study) {
+  std::vector<std::string> varied, wanted, kept, fingers;
+  for (const Variable& v : study.variables) varied.push_back(range_text(v));
+  for (const MetricExpression& e : study.objective.maximise)
+    wanted.push_back("maximise " + metric_text(e));
+  for (const MetricExpression& e : study.objective.minimise)
+    wanted.push_back("minimise " + metric_text(e));
+  for (const Target& t : study.objective.targets)
+    wanted.push_back("a target for " + metric_text(t.metric));
+  for (const Constraint& c : study.constraints)
+    kept.push_back(limit_name(c.on) + " " + limit_text(c));
+  for (const Finger& finger : study.population) fingers.push_back(finger.name);
+  std::string out = "it varies " + join_names(varied, "; ") + "\n";
+  out += "it wants: " + join_names(wanted) + (kept.empty() ? "" : "; limits: " + join_names(kept)) +
+         "\n";
+  if (!fingers.empty()) out += "for fingers " + join_names(fingers) + "\n";
+  return out +
+         "everything else stays as in the file and its bases (papilla evaluate --out writes "
+         "all of it: resolved.toml)\n";
+}
+
 // What `papilla optimize` would take.
 std::string study_text(const Study& study) {
   const StudyCost cost = study_cost(study);
-  std::string out = fmt::format(
-      "as a study: {} of {} each, then {} designs judged again, {} finalists and checks: {} to {} "
-      "of one core of a usual machine, more on a busy one, and {:.0f} MB a worker\n",
-      counted(cost.evaluations, "evaluation"), counted(cost.tasks, "task"), cost.narrowed,
-      cost.finalists, duration(kLeastOfPrice * cost.seconds), duration(kMostOfPrice * cost.seconds),
-      std::ceil(1e-6 * cost.bytes));
+  std::string out =
+      aims_text(study) +
+      fmt::format(
+          "as a study: {} of {} each, then {} designs judged again, {} finalists and checks: {} to "
+          "{} "
+          "of one core of a usual machine, more on a busy one, and {:.0f} MB a worker\n",
+          counted(cost.evaluations, "evaluation"), counted(cost.tasks, "task"), cost.narrowed,
+          cost.finalists, duration(kLeastOfPrice * cost.seconds),
+          duration(kMostOfPrice * cost.seconds), std::ceil(1e-6 * cost.bytes));
   if (cost.members > 0)
     out += fmt::format("of that the finalists at {} of belief take up to {}\n",
                        counted(static_cast<int>(cost.members), "member"),

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -91,6 +92,8 @@ int run(int argc, char** argv) {
     const int status = context.action();
     std::cout.flush();
     if (!std::cout) {
+      // A reader that has seen enough ("papilla describe | head") is no failure.
+      if (errno == EPIPE) return kSuccess;
       print_error(context, "cannot write to standard output");
       return kWorkFailed;
     }

@@ -35,6 +35,7 @@ class Rows {
  public:
   Rows(const Layout& layout, std::size_t most) : layout_(layout), most_(most) {
     place(layout.cells.back(), 0, 0, 1, 0);
+    join();
   }
   const std::vector<PolygonRow>& found() const { return rows_; }
 
@@ -55,6 +56,25 @@ class Rows {
               across ? static_cast<double>(r.step_x) : step);
       }
     }
+  }
+
+  // Rows that a file has in parts, one beside the other: GDSII holds 32767 columns an array.
+  void join() {
+    std::sort(rows_.begin(), rows_.end(), [](const PolygonRow& a, const PolygonRow& b) {
+      return std::tie(a.polygon, a.y, a.x) < std::tie(b.polygon, b.y, b.x);
+    });
+    std::vector<PolygonRow> whole;
+    for (const PolygonRow& row : rows_) {
+      const bool beside =
+          !whole.empty() && whole.back().polygon == row.polygon && whole.back().y == row.y &&
+          whole.back().columns > 1 && (row.columns == 1 || row.step == whole.back().step) &&
+          row.x == whole.back().x + static_cast<double>(whole.back().columns) * whole.back().step;
+      if (beside)
+        whole.back().columns += row.columns;
+      else
+        whole.push_back(row);
+    }
+    rows_ = std::move(whole);
   }
 
   const Layout& layout_;

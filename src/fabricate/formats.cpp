@@ -151,7 +151,7 @@ constexpr ExportFormat kFormats[]{
      .check = check_gds},
     {.name = "oasis",
      .file = "texture.oas",
-     .holds = "the polygons of `gds` as OASIS, without its limit of 32767 cells per side",
+     .holds = "the polygons of `gds` as OASIS, a smaller file",
      .needs_outline = true,
      .asked_only = true,
      .write = oasis,

@@ -160,25 +160,6 @@ void invert_pillars(LayoutCell& cell, const FeatureArray& mask) {
   cell.polygons = around_disc(disc, {{middle, 0, 0, middle}, {whole, whole, 0, 0}});
 }
 
-// GDSII holds so many copies of a cell along a side of one array: more are several arrays.
-void split_arrays(LayoutCell& cell) {
-  constexpr long kMost = 32767;
-  std::vector<LayoutReference> out;
-  for (const LayoutReference& r : cell.references) {
-    for (long row = 0; row < r.rows; row += kMost) {
-      for (long column = 0; column < r.columns; column += kMost) {
-        LayoutReference part = r;
-        part.x += static_cast<std::int32_t>(column * r.step_x);
-        part.y += static_cast<std::int32_t>(row * r.step_y);
-        part.columns = std::min(kMost, r.columns - column);
-        part.rows = std::min(kMost, r.rows - row);
-        out.push_back(part);
-      }
-    }
-  }
-  cell.references = std::move(out);
-}
-
 void move_by(LayoutCell& cell, std::int32_t x, std::int32_t y) {
   for (LayoutReference& r : cell.references) r.x += x, r.y += y;
 }
@@ -197,7 +178,6 @@ std::vector<LayoutCell> array_cells(const std::string& name, const MaskedArray& 
     cell.name = top ? name : name + "_" + cell.name;
     for (LayoutPolygon& p : cell.polygons) p.layer = layer;
     for (LayoutReference& r : cell.references) r.cell = name + "_" + r.cell;
-    split_arrays(cell);
   }
   const LayoutArray& a = drawing.array;
   move_by(cells.back(), -on_nanometres(0.5 * static_cast<double>(a.columns) * a.pitch_x),
@@ -221,7 +201,6 @@ std::vector<LayoutCell> contour_cells(const std::string& name, const Etch& etch,
                             .step_x = step_x,
                             .step_y = step_y,
                             .array = true});
-  split_arrays(pad);
   return {std::move(cell), std::move(pad)};
 }
 

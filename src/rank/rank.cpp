@@ -371,6 +371,13 @@ Ranking ranking_of(const std::vector<Regions>& candidates, const RankOptions& op
   for (const Regions& regions : candidates) out.titles.push_back(regions.front().title);
   out.conditions = condition_differences(candidates, options);
   out.notes = notes_of(candidates, options);
+  if (const std::string unknown = parameters_unknown(candidates);
+      !options.parameters && !unknown.empty())
+    out.notes.push_back(
+        "no interval and no probability holds what is not known of finger and model, which is "
+        "often "
+        "more than all else: " +
+        unknown + "; [finger] base = \"fingers/reference.toml\" has it of the shipped finger");
   if (!options.any_conditions) require_same_conditions(out.conditions);
   if (options.parameters) plan_steps(candidates, out);
   const Pin* pin = candidates.front().front().counterface.in_place();

@@ -71,6 +71,8 @@ TEST_F(TablesAndFiles, NumbersLieInTheirRanges) {
   EXPECT_EQ(told("100 %,1e5,1e9,100,1000,1000,1000,1000"), "");
   EXPECT_EQ(told("0.5,1,1,1e-6,0,1,0,1"), "");
   EXPECT_EQ(told("1.01,0,0,0.2,0.1,1,,"), "2:2: relative_humidity: 1.01 lies outside 0 to 1\n");
+  EXPECT_EQ(told("30,0,0,0.2,0.1,1,,"),
+            "2:2: relative_humidity: 30 lies outside 0 to 1: write it as \"30 %\"\n");
   EXPECT_EQ(told("-0.1,0,0,0.2,0.1,1,,"), "2:2: relative_humidity: -0.1 lies outside 0 to 1\n");
   EXPECT_EQ(told("0.5,-1,5,0.2,0.1,1,,"), "2:3: amplitude_V: -1 lies outside 0 to 100000\n");
   EXPECT_EQ(told("0.5,1e6,5,0.2,0.1,1,,"), "2:3: amplitude_V: 1e6 lies outside 0 to 100000\n");

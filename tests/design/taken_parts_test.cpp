@@ -27,6 +27,11 @@ TEST(TakenParts, AreSaidWhereThePatchIsShorterThanTheLongerSide) {
   EXPECT_EQ(text(scan),
             "a.gsf: taken as it is, neither levelled nor mended; of its 25.6 x 20 um the middle 12 "
             "um are the texture (texture.patch)");
+  scan.changes.as_is = false;
+  EXPECT_NE(text(scan).find(" um are the texture (texture.patch), blended along two borders with "
+                            "what lies beyond, so that it repeats"),
+            std::string::npos)
+      << text(scan);
 }
 
 Node table(std::vector<std::pair<std::string, Node>> members) {

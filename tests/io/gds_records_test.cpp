@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "base/error.h"
@@ -93,21 +94,32 @@ TEST(GdsRecords, StandInTheBytesOfTheirDefinition) {
             std::tuple(300, 2, 1000, 500));
 }
 
-TEST(GdsRecords, OfMoreThan32767CellsASideAreRefused) {
-  const auto refusal = [](long columns, long rows) -> std::string {
+// One record holds 32767 columns and rows: what is more stands in further ones, beside the first.
+TEST(GdsRecords, OfMoreThan32767CellsASideAreWrittenInParts) {
+  const auto parts = [](long columns, long rows) {
     Layout layout = example();
     LayoutReference& r = layout.cells.back().references[0];
     r.columns = columns, r.rows = rows;
-    r.step_x = r.step_y = 1;
-    return refusal_of([&] { write_gds(temporary("many.gds"), layout); });
+    r.step_x = 2, r.step_y = 3;
+    const std::string path = temporary("many.gds");
+    write_gds(path, layout);
+    std::vector<std::tuple<long, long, long, long>> out;  // from the first, how many
+    const Layout back = read_gds(path);
+    for (const LayoutReference& part : back.cells.back().references) {
+      if (part.cell == r.cell)
+        out.emplace_back(part.x - r.x, part.y - r.y, part.columns, part.rows);
+    }
+    return out;
   };
-  EXPECT_EQ(refusal(32767, 32767), "");
-  EXPECT_EQ(refusal(32768, 3),
-            "32768 x 3 cells are more than one GDSII array holds (32767 per side); take OASIS, "
-            "--format oasis");
-  EXPECT_EQ(refusal(3, 32768),
-            "3 x 32768 cells are more than one GDSII array holds (32767 per side); take OASIS, "
-            "--format oasis");
+  using Parts = std::vector<std::tuple<long, long, long, long>>;
+  EXPECT_EQ(parts(32767, 32767), (Parts{{0, 0, 32767, 32767}}));
+  EXPECT_EQ(parts(32768, 3), (Parts{{0, 0, 32767, 3}, {65534, 0, 1, 3}}));
+  EXPECT_EQ(parts(40000, 70000), (Parts{{0, 0, 32767, 32767},
+                                        {65534, 0, 7233, 32767},
+                                        {0, 98301, 32767, 32767},
+                                        {65534, 98301, 7233, 32767},
+                                        {0, 196602, 32767, 4466},
+                                        {65534, 196602, 7233, 4466}}));
 }
 
 // What the reader says, without the name of the file; "": it reads them.

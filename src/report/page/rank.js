@@ -109,7 +109,7 @@ function showSure(state) {
   }
   $('skins').textContent = `${whole} ${state.skins} patches of skin were tried` + (state.skins < state.equal_skins ? `, more where two candidates are close; ${state.equal_skins} with as many for every candidate.` : '.')
     + (!ranking.parameters ? ' What is not known of finger and model is in no interval and no probability.'
-      : ' Every interval and probability holds the model part, what ' + (ranking.parameters.members ? 'belief about finger and model' : 'the fit of the finger') + ' leaves open, which moves all candidates together' + (ranking.scored ? ': of the leads ' + list.map((c) => '±' + percent(1.96 * c.ahead_of_next.parameters)).join(', ') + ' %.' : '.'));
+      : ' Every interval and probability holds the model part, what ' + (ranking.parameters.members ? 'belief about finger and model' : 'the fit of the finger') + ' leaves open, which moves candidates together as far as they are alike' + (ranking.scored ? ': of the leads ' + list.map((c) => '±' + percent(1.96 * c.ahead_of_next.parameters)).join(', ') + ' %.' : '.'));
 }
 
 function showCompared() {
@@ -147,6 +147,7 @@ function select(index) {
 }
 
 if ((ranking.conditions_differ || []).length) $('conditions').textContent = 'Warning: the candidates are not judged under the same conditions, and the order is that of surface and conditions together: ' + ranking.conditions_differ.map((d) => `${d.key} (${d.designs.map((name, i) => `${name}: ${d.values[i]}`).join(', ')})`).join('; ') + '.';
+(ranking.notes || []).forEach((note) => { $('remarks').appendChild(document.createElement('li')).textContent = note.charAt(0).toUpperCase() + note.slice(1) + '.'; });
 options($('finger'), ranking.states.map((s, i) => [i, s.state]), select);
 select(0);
 showCompared();

@@ -41,11 +41,11 @@ export function showAnswer(answer) {
   document.documentElement.dataset.revision = answer.revision;
 }
 
-// Two parts with their names where belief has been run, else the numerical one alone.
-const of = (q, scale = 1, unit = '') => {
+// Two parts with their names where belief has been run, else the numerical one alone. named: without, where a table's head names them.
+const of = (q, scale = 1, unit = '', named = true) => {
   if (!q) return '–';
   const error = (v) => unit ? round(scale * v, 2) : v.toFixed(3);
-  const parts = q.model === null || q.model === undefined ? error(q.se) : `${error(q.numerical)} numerical ± ${error(q.model)} model`;
+  const parts = q.model === null || q.model === undefined ? error(q.se) : named ? `${error(q.numerical)} numerical ± ${error(q.model)} model` : `${error(q.numerical)} ± ${error(q.model)}`;
   return `${unit ? round(scale * q.value, 4) : fixed(q.value)} ± ${parts}${unit}`;
 };
 function showNumbers(r) {
@@ -70,12 +70,13 @@ const words = { 'mean(modulation)': ['modulation', 1, ''], 'worst(modulation)': 
 // "better by .03 ± .01": the difference has an error of its own, both met the same skins.
 function sentence(c) {
   const [name, better, unit] = words[c.metric], scale = unit ? 1e3 : 1, d = scale * c.difference, e = c.error === null ? null : scale * c.error;
-  const text = (v) => unit ? round(Math.abs(v), 3) : Math.abs(v).toFixed(3);
+  const places = e > 0 ? Math.min(6, Math.max(3, 1 - Math.floor(Math.log10(e)))) : 3;  // two digits of the error
+  const text = (v) => unit ? round(Math.abs(v), 3) : Math.abs(v).toFixed(places);
   const sure = e !== null && Math.abs(d) > 2 * e;
   if (!sure) return null;
   const word = better === 0 ? (d > 0 ? 'higher by' : 'lower by') : d * better > 0 ? 'better by' : 'worse by';
   const span = document.createElement('span');
-  span.textContent = `${name} ${word} ${text(d)}${e === null ? '' : ' ± ' + (unit ? round(e, 2) : e.toFixed(3))}${unit}`;
+  span.textContent = `${name} ${word} ${text(d)}${e === null ? '' : ' ± ' + (unit ? round(e, 2) : e.toFixed(places))}${unit}`;
   if (better) span.className = d * better > 0 ? 'better' : 'worse';
   return span;
 }
@@ -90,8 +91,9 @@ function pinTable() {
   frame.setAttribute('role', 'region');
   frame.setAttribute('aria-label', 'Pinned designs side by side');
   frame.append(body);
-  const rows = compared.filter(([, key]) => all.some((r) => r.summary[key])).map(([name, key, scale, unit]) => [name, ...all.map((r) => of(r.summary[key], scale, unit))]);
-  table(body, ['', 'this design', ...known.map((pin) => pin.name)], rows, all.map((_, i) => i + 1));
+  const rows = compared.filter(([, key]) => all.some((r) => r.summary[key])).map(([name, key, scale, unit]) => [name, ...all.map((r) => of(r.summary[key], scale, unit, false))]);
+  const both = all.some((r) => compared.some(([, key]) => r.summary[key] && r.summary[key].model !== null && r.summary[key].model !== undefined));
+  table(body, [both ? '± numerical ± model' : '', 'this design', ...known.map((pin) => pin.name)], rows, all.map((_, i) => i + 1));
   return [frame];
 }
 function showPins() {
