@@ -30,8 +30,8 @@ std::string plain_name(const std::string& path);
 std::string design_name(const std::string& folder);
 // "grooves 1.2 um wide at the top, 349 nm deep, 5.41 um from one to the next, walls 88 deg steep"
 std::string shape_text(const Design& design);
-// "contact angle of water 63 deg, peak voltage 180 V": what the variables say of a surface besides its
-// texture. of: whose numbers these are, for the receipts.
+// "contact angle of water 63 deg, peak voltage 180 V": what the variables say of a surface besides
+// its texture. of: whose numbers these are, for the receipts.
 std::string surface_text(const ResultFiles& f, const std::string& of, const Point& unit);
 
 }  // namespace papilla::report
