@@ -1,13 +1,11 @@
-// Preloaded into the program under test (LD_PRELOAD): one call in a sequence fails, by the
-// environment.
+// Preloaded into the program under test (LD_PRELOAD): one call in a sequence fails, by the environment.
 //   PAPILLA_FAULT_KIND   allocation: operator new throws; file: a call on a file says EIO;
 //                        disk: every write says ENOSPC once PAPILLA_FAULT_AT bytes are written
 //   PAPILLA_FAULT_AT     which call of the kind, from 1; 0: none fails
 //   PAPILLA_FAULT_COUNT  a file that gets the number of calls (disk: bytes) when the program ends
-// Calls count from main() on and outside dlopen(): what fails there is the loader's, and the
-// constructors of libraries that it runs cannot tell an error (those of the image library make
-// 70,000 allocations). Files of the system (/proc, /usr, ...) and descriptors opened without a path
-// count for nothing.
+// Calls count from main() on and outside dlopen(): what fails there is the loader's, and the constructors of
+// libraries that it runs cannot tell an error (those of the image library make 70,000 allocations). Files of the system (/proc, /usr, ...)
+// and descriptors opened without a path count for nothing.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <stdarg.h>
@@ -29,8 +27,7 @@ enum class Kind { None, Allocation, File, Disk };
 
 std::atomic<bool> armed{false};
 std::atomic<long> calls{0};
-std::atomic<int> loading{
-    0};  // calls of dlopen() under way: libraries load others, and start threads
+std::atomic<int> loading{0};  // calls of dlopen() under way: libraries load others, and start threads
 Kind kind = Kind::None;
 long fails_at = 0;
 constexpr int kMostFiles = 4096;
@@ -63,9 +60,7 @@ bool file_fails(int descriptor) {
 bool file_fails(const char* path) { return !of_the_system(path) && file_fails(); }
 
 bool disk_is_full(int descriptor, std::size_t size) {
-  if (!armed || kind != Kind::Disk || descriptor < 0 || descriptor >= kMostFiles ||
-      !counted[descriptor])
-    return false;
+  if (!armed || kind != Kind::Disk || descriptor < 0 || descriptor >= kMostFiles || !counted[descriptor]) return false;
   calls += static_cast<long>(size);
   if (fails_at == 0 || calls <= fails_at) return false;
   errno = ENOSPC;
@@ -106,9 +101,7 @@ int armed_main(int argc, char** argv, char** environment) {
 
 void* allocate(std::size_t size, std::size_t alignment) {
   if (fails(Kind::Allocation)) throw std::bad_alloc();
-  void* out = alignment == 0
-                  ? std::malloc(size)
-                  : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  void* out = alignment == 0 ? std::malloc(size) : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
   if (out == nullptr) throw std::bad_alloc();
   return out;
 }
@@ -117,12 +110,8 @@ void* allocate(std::size_t size, std::size_t alignment) {
 
 void* operator new(std::size_t size) { return allocate(size, 0); }
 void* operator new[](std::size_t size) { return allocate(size, 0); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return allocate(size, static_cast<std::size_t>(alignment));
-}
-void* operator new[](std::size_t size, std::align_val_t alignment) {
-  return allocate(size, static_cast<std::size_t>(alignment));
-}
+void* operator new(std::size_t size, std::align_val_t alignment) { return allocate(size, static_cast<std::size_t>(alignment)); }
+void* operator new[](std::size_t size, std::align_val_t alignment) { return allocate(size, static_cast<std::size_t>(alignment)); }
 void operator delete(void* block) noexcept { std::free(block); }
 void operator delete[](void* block) noexcept { std::free(block); }
 void operator delete(void* block, std::size_t) noexcept { std::free(block); }
@@ -141,46 +130,44 @@ void* dlopen(const char* path, int flags) {
   return out;
 }
 
-int __libc_start_main(Main main, int argc, char** argv, void (*init)(), void (*fini)(),
-                      void (*loader)(), void* stack) {
+int __libc_start_main(Main main, int argc, char** argv, void (*init)(), void (*fini)(), void (*loader)(), void* stack) {
   program = main;
   using Start = int (*)(Main, int, char**, void (*)(), void (*)(), void (*)(), void*);
   return next<Start>("__libc_start_main")(armed_main, argc, argv, init, fini, loader, stack);
 }
 
-#define OPEN(name)                                                                       \
-  int name(const char* path, int flags, ...) {                                           \
-    va_list rest;                                                                        \
-    va_start(rest, flags);                                                               \
-    const mode_t mode = va_arg(rest, mode_t);                                            \
-    va_end(rest);                                                                        \
-    if (file_fails(path)) return -1;                                                     \
+#define OPEN(name)                                                        \
+  int name(const char* path, int flags, ...) {                            \
+    va_list rest;                                                         \
+    va_start(rest, flags);                                                \
+    const mode_t mode = va_arg(rest, mode_t);                             \
+    va_end(rest);                                                         \
+    if (file_fails(path)) return -1;                                      \
     return opened(path, next<int (*)(const char*, int, ...)>(#name)(path, flags, mode)); \
   }
 OPEN(open)
 OPEN(open64)
 #undef OPEN
 
-#define OPENAT(name)                                                                            \
-  int name(int folder, const char* path, int flags, ...) {                                      \
-    va_list rest;                                                                               \
-    va_start(rest, flags);                                                                      \
-    const mode_t mode = va_arg(rest, mode_t);                                                   \
-    va_end(rest);                                                                               \
-    if (file_fails(path)) return -1;                                                            \
-    return opened(path,                                                                         \
-                  next<int (*)(int, const char*, int, ...)>(#name)(folder, path, flags, mode)); \
+#define OPENAT(name)                                                      \
+  int name(int folder, const char* path, int flags, ...) {                \
+    va_list rest;                                                         \
+    va_start(rest, flags);                                                \
+    const mode_t mode = va_arg(rest, mode_t);                             \
+    va_end(rest);                                                         \
+    if (file_fails(path)) return -1;                                      \
+    return opened(path, next<int (*)(int, const char*, int, ...)>(#name)(folder, path, flags, mode)); \
   }
 OPENAT(openat)
 OPENAT(openat64)
 #undef OPENAT
 
-#define FOPEN(name)                                                                     \
-  std::FILE* name(const char* path, const char* mode) {                                 \
-    if (file_fails(path)) return nullptr;                                               \
+#define FOPEN(name)                                                       \
+  std::FILE* name(const char* path, const char* mode) {                   \
+    if (file_fails(path)) return nullptr;                                 \
     std::FILE* out = next<std::FILE* (*)(const char*, const char*)>(#name)(path, mode); \
-    if (out != nullptr) opened(path, fileno(out));                                      \
-    return out;                                                                         \
+    if (out != nullptr) opened(path, fileno(out));                        \
+    return out;                                                           \
   }
 FOPEN(fopen)
 FOPEN(fopen64)
@@ -204,19 +191,14 @@ ssize_t writev(int descriptor, const struct iovec* parts, int count) {
   if (file_fails(descriptor) || disk_is_full(descriptor, size)) return -1;
   return next<ssize_t (*)(int, const struct iovec*, int)>("writev")(descriptor, parts, count);
 }
-int fsync(int descriptor) {
-  return file_fails(descriptor) ? -1 : next<int (*)(int)>("fsync")(descriptor);
-}
-int fdatasync(int descriptor) {
-  return file_fails(descriptor) ? -1 : next<int (*)(int)>("fdatasync")(descriptor);
-}
+int fsync(int descriptor) { return file_fails(descriptor) ? -1 : next<int (*)(int)>("fsync")(descriptor); }
+int fdatasync(int descriptor) { return file_fails(descriptor) ? -1 : next<int (*)(int)>("fdatasync")(descriptor); }
 int rename(const char* from, const char* to) {
   return file_fails(from) ? -1 : next<int (*)(const char*, const char*)>("rename")(from, to);
 }
 int renameat(int from_folder, const char* from, int to_folder, const char* to) {
   if (file_fails(from)) return -1;
-  return next<int (*)(int, const char*, int, const char*)>("renameat")(from_folder, from, to_folder,
-                                                                       to);
+  return next<int (*)(int, const char*, int, const char*)>("renameat")(from_folder, from, to_folder, to);
 }
 int mkdir(const char* path, mode_t mode) {
   return file_fails(path) ? -1 : next<int (*)(const char*, mode_t)>("mkdir")(path, mode);
