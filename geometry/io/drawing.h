@@ -77,10 +77,9 @@ ArrayDrawing draw_array(const FeatureArray& array, double size_x, double size_y,
 // million polygons.
 Layout draw_contours(const Heightmap& h, int levels);
 
-// Files, the same bytes on every run: GDSII with a database unit of 1 nm (larger
-// arrays than of 32767 cells a side in parts), OASIS with its repetitions and a sum over all of it.
-// Labels are texts at the origin of the top cell. GDSII has no names of layers: there the name
-// stands before the label.
+// Files, the same bytes on every run: GDSII with a database unit of 1 nm (arrays of more than 32767
+// cells a side in parts), OASIS with its repetitions and a sum over all of it. Labels are texts at
+// the origin of the top cell. GDSII has no names of layers: there the name stands before the label.
 void write_gds(const std::string& path, const Layout& layout);
 void write_oasis(const std::string& path, const Layout& layout);
 

@@ -57,9 +57,8 @@ std::string study_text(const Study& study) {
   std::string out =
       aims_text(study) +
       fmt::format(
-          "as a study: {} of {} each, then {} designs judged again, {} finalists and checks: {} to "
-          "{} "
-          "of one core of a usual machine, more on a busy one, and {:.0f} MB a worker\n",
+          "as a study: {} of {} each, then {} designs judged again, {} finalists and checks: {} "
+          "to {} of one core of a usual machine, more on a busy one, and {:.0f} MB a worker\n",
           counted(cost.evaluations, "evaluation"), counted(cost.tasks, "task"), cost.narrowed,
           cost.finalists, duration(kLeastOfPrice * cost.seconds),
           duration(kMostOfPrice * cost.seconds), std::ceil(1e-6 * cost.bytes));

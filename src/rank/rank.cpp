@@ -375,8 +375,7 @@ Ranking ranking_of(const std::vector<Regions>& candidates, const RankOptions& op
       !options.parameters && !unknown.empty())
     out.notes.push_back(
         "no interval and no probability holds what is not known of finger and model, which is "
-        "often "
-        "more than all else: " +
+        "often more than all else: " +
         unknown + "; [finger] base = \"fingers/reference.toml\" has it of the shipped finger");
   if (!options.any_conditions) require_same_conditions(out.conditions);
   if (options.parameters) plan_steps(candidates, out);

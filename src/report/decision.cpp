@@ -227,8 +227,8 @@ std::string measure_sentence(const ResultFiles& f) {
   return fmt::format(
       "To be surer, measure the friction of {} and of {} ({}){}, over the humidities and at the "
       "load of this study: the one that is better in {} is to be built. `papilla next RESULTS` "
-      "with "
-      "the folder of this run plans it (humidities, loads, voltages, repeats, order) in a table to "
+      "with the folder of this run plans it (humidities, loads, voltages, repeats, order) in a "
+      "table to "
       "fill in, and `papilla tell` takes the table back and says what it changes.",
       name_of(f, d.best), name_of(f, rival_of(d)), rival_text(f, f.result.finalists[rival_of(d)]),
       f.problem.driven() ? " with the drive off and on" : "", worth_name(f));

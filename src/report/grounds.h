@@ -12,9 +12,8 @@ namespace papilla::report {
 // In sentences: fingers and humidities, what is in no ±, a worst case that nobody feels, how it
 // looks.
 std::vector<std::string> grounds(const ResultFiles& files);
-// That nobody feels it on skin of the other state, where that was tried: " But on natural skin
-// ...";
-// "" otherwise.
+// " But on natural skin ...": that nobody feels it on skin of the other state, where that was
+// tried; "" otherwise.
 std::string unfelt_skin_text(const ResultFiles& files);
 // "200 V (peak) at 5 kHz"; "" of a surface without a drive.
 std::string drive_text(const Drive& drive);
