@@ -222,6 +222,31 @@ TEST(Verify, NamesWhatIsNarrowerThanItsLimitAndHowFarTheMeritIsOff) {
   EXPECT_TRUE(verify_export(study, file, 0.2).faults.empty());
 }
 
+// Rims of 100 nm make holes of 45 nm wider half-way down than at the land, where their walls keep
+// the limit: that is no fault of the file. Walls that are narrower than the design's are.
+TEST(Verify, ARoundRimBreaksNoLimitThatTheLandKeeps) {
+  Study study;
+  study.design.environment.relative_humidity = {0.35};
+  HoleArray holes;
+  holes.period = 4.674e-6, holes.diameter = 4.071e-6, holes.depth = 45e-9;
+  holes.wall_angle = 80 * kPi / 180, holes.edge_radius = 100e-9;
+  study.design.texture = Texture{holes};
+  study.constraints = {read_constraint("min_wall", 0.6e-6)};
+  ExportOptions options;
+  options.formats = {"gsf"};
+  options.pixels = 512;
+  const std::string folder = temporary("verify_rim");
+  const std::string file = export_design(study.design, options, folder).files.at(0).path;
+  const Verification sound = verify_export(study, file, 0.2);
+  EXPECT_LT(sound.pixels.min_wall, 0.6e-6 - sound.pixels.pixel);
+  EXPECT_TRUE(sound.faults.empty()) << sound.faults.front();
+  holes.diameter = 3.9e-6;  // the file's walls are .17 um narrower than these
+  study.design.texture = Texture{holes};
+  const Verification narrow = verify_export(study, file, 1);
+  ASSERT_EQ(narrow.faults.size(), 1u);
+  EXPECT_TRUE(narrow.faults[0].starts_with("min_wall of the file is ")) << narrow.faults[0];
+}
+
 // Where nothing repeats the patch of a design is 12 um wide: of a file of twice that only as much
 // is judged, one that is hardly larger is judged whole, and as it is.
 TEST(Verify, OfAFileThatIsMuchLargerThanItsDesignsPatchAPatchIsJudged) {
