@@ -94,6 +94,9 @@ Json compared_json(const ResultFiles& f) {
   if (r.flat && !recommended.flat)
     rows.push_back(
         compared_row(f, "the same without texture", "the same surface without texture", *r.flat));
+  if (recommended.flat)
+    rows.push_back(compared_row(f, design_name(r.finalists[r.best].folder) + ", with its texture",
+                                "the best design", r.finalists[r.best].confirmed));
   std::vector<std::size_t> shown{r.best};
   const auto add = [&](std::size_t design, const char* words, const std::string& of) {
     if (std::find(shown.begin(), shown.end(), design) != shown.end()) return;
