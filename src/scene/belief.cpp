@@ -6,11 +6,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <deque>
 #include <filesystem>
-#include <mutex>
+#include <memory>
 #include <string_view>
+#include <tuple>
 
+#include "base/cache.h"
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/text.h"
@@ -231,31 +232,15 @@ Finger without_conditions(Finger finger) {
 // The belief of a finger, kept while its file and the finger stay: a page asks for those of all
 // fingers of a study with every event of a slider, a search for one with every task.
 Belief last_read(const Finger& finger) {
-  struct Kept {
-    std::filesystem::file_time_type written;
-    std::uintmax_t size = 0;
-    Finger finger;
-    Belief belief;
-  };
-  constexpr std::size_t kMostKept = 16;  // fingers of a population
-  static std::mutex mutex;
-  static std::deque<Kept> kept;
-  std::error_code none;
-  const auto written = std::filesystem::last_write_time(finger.belief, none);
-  const std::uintmax_t size = none ? 0 : std::filesystem::file_size(finger.belief, none);
-  if (none) return read_belief(finger.belief, finger);
-  const Finger asked = without_conditions(finger);
-  {
-    const std::lock_guard lock(mutex);
-    for (const Kept& k : kept) {
-      if (k.written == written && k.size == size && k.finger == asked) return k.belief;
-    }
-  }
-  Belief belief = read_belief(finger.belief, finger);
-  const std::lock_guard lock(mutex);
-  if (kept.size() >= kMostKept) kept.pop_front();
-  kept.push_back({written, size, asked, belief});
-  return belief;
+  using Key = std::tuple<Finger, std::filesystem::file_time_type, std::uintmax_t>;
+  constexpr std::size_t kMost = 16;  // fingers of a population
+  static Cache<Key, Belief> kept(kMost, kInfinity);
+  std::error_code missing;  // reading says so
+  const auto written = std::filesystem::last_write_time(finger.belief, missing);
+  const std::uintmax_t size = std::filesystem::file_size(finger.belief, missing);
+  return *kept.get({without_conditions(finger), written, size}, 1, [&] {
+    return std::make_shared<const Belief>(read_belief(finger.belief, finger));
+  });
 }
 
 }  // namespace
