@@ -1,11 +1,11 @@
 // Planted truths: what recommendations are worth where the finger is one member of a belief that
 // the recommendation does not know; CSV on standard output, a truth a row, then the sums.
 //   decision_bench FILE FRONT MOST MEMBERS TRUTHS
-//                    the designs of the table FRONT, at most MOST, at level draft; each of the
-//                    first TRUTHS members is left out of the belief and judged on other skins.
-//                    MEMBERS 0: the study FILE as it is, with its fingers and its own belief; else
-//                    so many are drawn about its first finger, a fifth with the first droplet step
-//                    50 nm, a fifth with air by emission
+//                    the designs of the table FRONT, at most MOST; TRUTHS members, evenly over all,
+//                    are each left out of the belief and judged on other skins. MEMBERS 0: the
+//                    study FILE as it is, with its fingers, its own belief and its level; else at
+//                    level draft, so many drawn about its first finger, a fifth with the first
+//                    droplet step 50 nm, a fifth with air by emission
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,6 +20,7 @@
 #include "bench/drawn_belief.h"
 #include "bench/front_file.h"
 #include "estimate/belief.h"
+#include "forward/dry_areas.h"
 #include "search/levels.h"
 #include "search/run.h"
 #include "search/task.h"
@@ -29,7 +30,9 @@ using namespace papilla::tests;
 
 namespace {
 
-constexpr int kTruthSkins = 3000;  // skins of the truths start here
+// Skins of the truths start here: so many, so many of them in equilibrium and in the 3-D field,
+// that the truths are known better than what is said of them.
+constexpr int kFirstTruthSkin = 3000, kTruthSkins = 40, kTruthEquilibria = 16, kTruthFields = 4;
 
 // Numbers of the finger times exp(s normal): skin, load, layer, water.
 Belief planted(const Finger& finger, int members) {
@@ -45,8 +48,8 @@ Belief planted(const Finger& finger, int members) {
 
 Study study_of(const std::string& file, int members) {
   Study study = read_study(file);
-  study.design.accuracy.level = AccuracyLevel::Draft;
   if (members == 0) return study;
+  study.design.accuracy.level = AccuracyLevel::Draft;
   if (!study.population.empty()) study.design.finger = study.population.front();
   study.population.clear();
   const std::string path = temporary("planted_belief.toml");
@@ -57,7 +60,7 @@ Study study_of(const std::string& file, int members) {
 
 std::vector<TaskAnswer> confirmed(const StudyProblem& problem, const Design& design) {
   TaskWork work{stage_fidelity(problem, Stage::Confirm), true};
-  work.fidelity.threads = 1;
+  work.fidelity.threads = 0;
   std::vector<TaskAnswer> out;
   for (std::size_t t = 0; t < problem.tasks().size(); ++t)
     out.push_back(evaluate_task(problem, design, t, work));
@@ -67,14 +70,18 @@ std::vector<TaskAnswer> confirmed(const StudyProblem& problem, const Design& des
 // A design where the truth is a member: every task at that member's finger and model, on skins that
 // nothing was chosen by.
 Score true_score(const StudyProblem& problem, const Design& design, std::size_t member) {
-  Fidelity fidelity = stage_fidelity(problem, Stage::Confirm);
-  fidelity.first_skin = kTruthSkins;
-  fidelity.threads = 1;
+  Fidelity fidelity = fidelity_level("draft");
+  fidelity.seed = static_cast<std::uint64_t>(problem.study().search.seed);
+  fidelity.first_skin = kFirstTruthSkin;
+  fidelity.skins = kTruthSkins;
+  fidelity.equilibrium_skins = kTruthEquilibria;
+  fidelity.field_skins = kTruthFields;
+  fidelity.control_skins = 0;
   std::vector<TaskAnswer> answers;
   for (const StudyTask& task : problem.tasks()) {
     const Design d = task_design(problem.study(), design, task);
     const Scene scene = belief_scenes(*problem.belief(), scene_of(d))[member];
-    Response response = evaluate(scene, d.texture, fidelity);
+    Response response = evaluate_resolved(scene, d.texture, fidelity, kDrySkins);
     auto refused = complete(response, problem.goals(), scene, d, task.name, fidelity);
     answers.push_back(refused ? *std::move(refused)
                               : answer_of(problem.goals(), d, task.name, {std::move(response)}));
@@ -93,12 +100,11 @@ std::vector<FinalDesign> judged(const StudyProblem& problem, const std::vector<P
     f.feasible = problem.feasible(f.confirmed, f.design);
     if (!f.feasible) continue;
     Fidelity few = stage_fidelity(problem, Stage::Belief);
-    few.threads = 1;
-    std::vector<std::vector<TaskAnswer>> members;
+    few.threads = 0;
+    std::vector<TaskAnswer> members;
     for (std::size_t t = 0; t < problem.nominal_tasks(); ++t)
-      members.push_back(evaluate_steps(problem, f.design, t, few).members);
-    for (std::size_t m = 0; m < problem.belief()->members.size(); ++m)
-      f.members.push_back(score_at(problem, f.design, f.answers, members, m));
+      members.push_back(evaluate_steps(problem, f.design, t, few));
+    add_members(problem, members, f);
     out.push_back(std::move(f));
   }
   return out;
@@ -126,7 +132,9 @@ int planted_truths(const std::string& file, const std::string& front, std::size_
   Sums sums;
   sums.said = sums.so = sums.scatter = std::vector<double>(kBins, 0);
   fmt::print("truth,hypothesis,by belief,p(best),expected regret,regret,by the fit,its regret\n");
-  for (std::size_t t = 0; t < std::min(truths, all.weights.size()); ++t) {
+  truths = std::min(truths, all.weights.size());
+  for (std::size_t k = 0; k < truths; ++k) {
+    const std::size_t t = k * all.weights.size() / truths;
     MemberWorth others = all;
     others.weights[t] = 0;
     const std::vector<Prospect> found = prospects(others, problem.belief_risk());
@@ -161,7 +169,7 @@ int planted_truths(const std::string& file, const std::string& front, std::size_
                found[choice].regret, true_one[choice].regret, by_fit + 1, true_one[by_fit].regret);
     std::fflush(stdout);
   }
-  const auto n = static_cast<double>(std::min(truths, all.weights.size()));
+  const auto n = static_cast<double>(truths);
   fmt::print("# {} designs, the best at each member is worth {:.4f} on average\n", designs.size(),
              best_worth(all));
   fmt::print("# mean regret: by belief {:.4f} (expected {:.4f}), by the fit {:.4f}\n",

@@ -13,8 +13,7 @@
 namespace papilla::estimate {
 namespace {
 
-// Members differ by far more than skins and pixels move their differences.
-constexpr int kMostMemberSkins = 2, kFinestMemberGrid = 64;
+constexpr int kFinestMemberGrid = 64;
 constexpr double kMemberTolerance = 3e-3;  // of the contact, at the finest
 
 std::string absent_belief(const Scene& scene) {
@@ -30,9 +29,9 @@ std::string absent_belief(const Scene& scene) {
 
 }  // namespace
 
-Fidelity belief_fidelity(const Fidelity& fidelity) {
+Fidelity belief_fidelity(const Fidelity& fidelity, int skins) {
   Fidelity few = step_fidelity(fidelity);
-  few.skins = std::min(few.skins, kMostMemberSkins);
+  few.skins = few.equilibrium_skins = std::min(fidelity.skins, skins);
   few.grid = std::min(few.grid, kFinestMemberGrid);
   few.contact_tolerance = std::max(few.contact_tolerance, kMemberTolerance);
   return few;
@@ -50,13 +49,13 @@ std::vector<Scene> belief_scenes(const Belief& belief, const Scene& scene) {
 }
 
 void add_belief(Response& response, const Scene& scene, const Texture& texture,
-                const Fidelity& fidelity) {
+                const Fidelity& fidelity, int skins) {
   BeliefRuns& out = response.belief;
   out = {};
   out.absent = absent_belief(scene);
   if (!out.absent.empty()) return;
   const Belief belief = belief_of(scene.finger);
-  Fidelity few = belief_fidelity(fidelity);
+  Fidelity few = belief_fidelity(fidelity, skins);
   const int threads = few.threads;
   few.threads = 1;                                   // a member each
   const bool resolved = fidelity.control_skins > 1;  // so the number itself is
@@ -108,17 +107,18 @@ std::string unknown_model(const Finger& finger) {
 }
 
 void add_model_errors(Response& response, const Scene& scene, const Texture& texture,
-                      const Fidelity& fidelity) {
+                      const Fidelity& fidelity, int member_skins) {
   if (absent_belief(scene).empty())
-    add_belief(response, scene, texture, fidelity);
+    add_belief(response, scene, texture, fidelity, member_skins);
   else if (!scene.finger.uncertainty.empty())
     add_parameter_errors(response, scene, texture, fidelity);
 }
 
-ModelCost model_cost(const Finger& finger, const Fidelity& fidelity) {
+ModelCost model_cost(const Finger& finger, const Fidelity& fidelity, int member_skins) {
   if (finger.belief.empty())
     return {2 * static_cast<int>(finger_steps(finger).size()), step_fidelity(fidelity)};
-  return {static_cast<int>(belief_of(finger).members.size()) + 1, belief_fidelity(fidelity)};
+  return {static_cast<int>(belief_of(finger).members.size()) + 1,
+          belief_fidelity(fidelity, member_skins)};
 }
 
 }  // namespace papilla::estimate

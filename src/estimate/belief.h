@@ -11,9 +11,11 @@
 
 namespace papilla::estimate {
 
-// What members are run with: the load law, at most 4 skins and 64 pixels. Model parts are then
-// good to a fifth (docs/theory/accuracy.md).
-Fidelity belief_fidelity(const Fidelity& fidelity);
+// Members differ by far more than skins and pixels move their differences: with so many skins model
+// parts are good to a fifth (docs/theory/accuracy.md).
+inline constexpr int kMemberSkins = 2;
+// What members are run with: the load law, at most `skins` skins and 64 pixels.
+Fidelity belief_fidelity(const Fidelity& fidelity, int skins = kMemberSkins);
 
 // The scene at each member.
 std::vector<Scene> belief_scenes(const Belief& belief, const Scene& scene);
@@ -23,7 +25,7 @@ std::vector<Scene> belief_scenes(const Belief& belief, const Scene& scene);
 // model options than its own, has response.belief.absent say so. Cost: members + 1 evaluations at
 // belief_fidelity. Throws as belief_of.
 void add_belief(Response& response, const Scene& scene, const Texture& texture,
-                const Fidelity& fidelity);
+                const Fidelity& fidelity, int skins = kMemberSkins);
 
 // The part `model` of every number of a response whose belief has been run: by add_belief, or with
 // another fidelity of the same design.
@@ -34,12 +36,13 @@ void state_belief(Response& response);
 std::string unknown_model(const Finger& finger);
 // Belief where the finger has one, else the steps of Eq. accuracy.11; those need `uncertainty`.
 void add_model_errors(Response& response, const Scene& scene, const Texture& texture,
-                      const Fidelity& fidelity);
+                      const Fidelity& fidelity, int member_skins = kMemberSkins);
 // Evaluations that it takes, and what they are run with.
 struct ModelCost {
   int runs = 0;
   Fidelity fidelity;
 };
-ModelCost model_cost(const Finger& finger, const Fidelity& fidelity);
+ModelCost model_cost(const Finger& finger, const Fidelity& fidelity,
+                     int member_skins = kMemberSkins);
 
 }  // namespace papilla::estimate

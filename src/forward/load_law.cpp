@@ -62,6 +62,15 @@ void AttractionLaw::apply(PatchResult& patch) const {
   patch.retention_on *= retention_on;
 }
 
+AttractionLaw AttractionLaw::toward(const AttractionLaw& other, double share) const {
+  AttractionLaw out = *this;
+  for (double AttractionLaw::*number :
+       {&AttractionLaw::capillary_off, &AttractionLaw::capillary_on, &AttractionLaw::pull,
+        &AttractionLaw::retention_off, &AttractionLaw::retention_on})
+    out.*number += share * (other.*number - out.*number);
+  return out;
+}
+
 int sampled_skins(const PatchSetup& setup, const Plan& plan) {
   const bool closes = setup.scene().model.coupling == Coupling::Equilibrium &&
                       !plan.traction_solves && (plan.water || plan.field);
@@ -128,6 +137,25 @@ LoadLaws load_laws(const ScaleBridge& bridge, std::span<const std::vector<Solved
     laws.push_back(attraction_law(samples));
   }
   return laws;
+}
+
+std::vector<std::vector<PatchResult>> without_each(const ScaleBridge& bridge,
+                                                   std::span<const std::vector<SolvedPatch>> skins,
+                                                   int samples) {
+  const LoadLaws laws = load_laws(bridge, skins);
+  // Without one of m samples the law of m has the variance (m - 1)/m of the squares; the squares of
+  // n skins count (n - 1)/n of theirs.
+  const auto m = static_cast<double>(samples), n = static_cast<double>(skins.size());
+  const double share = std::sqrt((m - 1) / m * n / (n - 1));
+  std::vector<std::vector<PatchResult>> out;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(samples); ++k) {
+    std::vector<std::vector<SolvedPatch>> others(skins.begin(), skins.end());
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    LoadLaws there = load_laws(bridge, others);
+    for (std::size_t q = 0; q < laws.size(); ++q) there[q] = laws[q].toward(there[q], share);
+    out.push_back(combined(bridge, there, others));
+  }
+  return out;
 }
 
 std::vector<PatchResult> combined(const ScaleBridge& bridge, const LoadLaws& laws,

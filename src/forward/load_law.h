@@ -30,6 +30,9 @@ struct AttractionLaw {
   double load_off(double capillary) const;
   std::optional<double> load_on(double capillary, double pull) const;
 
+  // A share of the way to another law.
+  AttractionLaw toward(const AttractionLaw& other, double share) const;
+
   // The patch by its attractions on the dry gap becomes that in equilibrium.
   void apply(PatchResult& patch) const;
 };
@@ -61,6 +64,11 @@ SolvedPatch over_members(std::span<const WaterMember> members, const Plan& plan,
                          const std::function<DrivenPatch(const PatchProblem&)>& drive);
 // By the samples among the skins, at each patch pressure of the bridge.
 LoadLaws load_laws(const ScaleBridge& bridge, std::span<const std::vector<SolvedPatch>> skins);
+// The results without each of the first `samples` skins, which are those of the load law, with the
+// law that the jackknife of all skins takes for its own scatter.
+std::vector<std::vector<PatchResult>> without_each(const ScaleBridge& bridge,
+                                                   std::span<const std::vector<SolvedPatch>> skins,
+                                                   int samples);
 // Of each skin one result over the patch pressures; laws: of them, or none.
 std::vector<PatchResult> combined(const ScaleBridge& bridge, const LoadLaws& laws,
                                   std::span<const std::vector<SolvedPatch>> skins);

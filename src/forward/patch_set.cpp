@@ -120,6 +120,7 @@ void PatchSet::add(const PatchSet& other) {
   for (std::size_t i = 0; i < results.size(); ++i) {
     results[i].insert(results[i].end(), other.results[i].begin(), other.results[i].end());
   }
+  others.clear();
   seconds += other.seconds;
 }
 
@@ -166,6 +167,10 @@ PatchSet solve(const Scene& scene, const Texture& texture, const Fidelity& fidel
   for (std::size_t i = 0; i < humidities.size(); ++i)
     set.results[i] = combined(set.bridges[i], set.laws.empty() ? LoadLaws{} : set.laws[i],
                               std::span(solved[i]).first(static_cast<std::size_t>(fidelity.skins)));
+  if (samples > 1 && samples <= fidelity.skins && fidelity.control_skins == 0) {
+    for (std::size_t i = 0; i < humidities.size(); ++i)
+      set.others.push_back(without_each(set.bridges[i], solved[i], samples));
+  }
   set.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return set;
 }
@@ -203,7 +208,8 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
     std::vector<PatchResult> others(patches.begin() + (patches.empty() ? 0 : 1), patches.end());
     for (std::size_t k = 0; k < response.without.size(); ++k) {
       // `others` holds all but skin k.
-      response.without[k].push_back(point_of(others));
+      const bool samples = i < set.others.size() && k < set.others[i].size();
+      response.without[k].push_back(point_of(samples ? set.others[i][k] : others));
       response.without[k].back().samples = {};
       if (k < others.size()) others[k] = patches[k];
     }

@@ -29,7 +29,10 @@ struct PatchSet {
   FieldRatios field;                              // one per humidity
   std::vector<LoadLaws> laws;                     // one per humidity; empty: of no load law
   std::vector<std::vector<PatchResult>> results;  // [humidity][skin]
-  std::vector<MeasuredError> errors;              // of measure_errors, like the next
+  // [humidity][skin] The results of the other skins by the load law of their own samples, so that
+  // its scatter is in the jackknife. Empty: no law, or what it lacks is measured on control skins.
+  std::vector<std::vector<std::vector<PatchResult>>> others;
+  std::vector<MeasuredError> errors;  // of measure_errors, like the next
   ControlRuns controls;
   double area_factor = 1;  // on contact areas: `resolved_areas`
   double seconds = 0;      // wall time

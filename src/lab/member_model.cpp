@@ -54,10 +54,9 @@ using MovedNumber =
 // that are none add nothing.
 void add_deviations(double all, const std::vector<double>& without, double factor,
                     std::vector<double>& out) {
-  const std::vector<double> samples = jackknife_samples(all, without);
-  const double mean = mean_estimate(samples).value, n = static_cast<double>(samples.size());
-  for (std::size_t k = 0; k < without.size(); ++k)
-    out.push_back(std::isnan(mean) ? 0 : factor * (samples[k] - mean) / std::sqrt(n * (n - 1)));
+  if (without.empty()) return;
+  for (const double move : error_moves(jackknife_samples(all, without)))
+    out.push_back(std::isnan(move) ? 0 : factor * move);
 }
 
 // Eq. lab.3: what skins leave open is that of the design's own level, and on average over belief
@@ -151,8 +150,7 @@ DesignRuns runs_of(const Design& design, const Belief& belief, int threads) {
   for (const BeliefMember& m : belief.members) out.weights.push_back(m.weight);
   std::vector<Scene> scenes = belief_scenes(belief, scene);
   scenes.push_back(scene);
-  Fidelity few = belief_fidelity(wanted);
-  few.skins = few.equilibrium_skins = std::min(wanted.skins, kMemberSkins);
+  Fidelity few = belief_fidelity(wanted, kMemberSkins);
   few.threads = 1;  // a member each
   out.members.resize(scenes.size());
   parallel_for(

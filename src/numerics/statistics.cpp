@@ -45,6 +45,16 @@ std::vector<double> jackknife_samples(double all, std::span<const double> withou
   return out;
 }
 
+std::vector<double> error_moves(std::span<const double> samples) {
+  std::vector<double> out;
+  const auto n = static_cast<double>(samples.size());
+  double mean = 0;
+  for (const double sample : samples) mean += sample / n;
+  for (const double sample : samples)
+    out.push_back((sample - mean) / std::sqrt(n * std::max(1.0, n - 1)));
+  return out;
+}
+
 double quantile(std::vector<double> values, double p) {
   PAPILLA_CHECK(!values.empty(), "quantile of nothing");
   std::sort(values.begin(), values.end());

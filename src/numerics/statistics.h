@@ -21,6 +21,9 @@ Estimate ratio_estimate(std::span<const double> a, std::span<const double> b);
 // A number as the mean of samples, from its values without each of them: samples whose standard
 // error is the jackknife error of the number (Tukey 1958). One sample, the number, without those.
 std::vector<double> jackknife_samples(double all, std::span<const double> without_each);
+// What each sample moves their mean by: the sum of the moves, each by a standard normal number of
+// its own, is a draw of its error; their squares sum up to its variance. One sample moves nothing.
+std::vector<double> error_moves(std::span<const double> samples);
 double quantile(std::vector<double> values, double p);  // linear interpolation, p in [0, 1]
 // Of weighted values: linear between the middles of their shares, the ends beyond.
 double weighted_quantile(std::span<const double> values, std::span<const double> weights, double p);

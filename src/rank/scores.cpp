@@ -21,15 +21,11 @@ std::vector<double> minus(const std::vector<double>& a, const std::vector<double
   return d;
 }
 
-// Adds the weights of the first `count` samples with which a draw of their mean, one standard
-// normal number per sample, is a draw of its error.
-void add_centred(const std::vector<double>& samples, std::size_t count, double sign,
-                 std::vector<double>& to) {
-  double middle = 0;
-  for (std::size_t k = 0; k < count; ++k) middle += samples[k] / static_cast<double>(count);
-  const auto c = static_cast<double>(count);
-  for (std::size_t k = 0; k < count; ++k)
-    to[k] += sign * (samples[k] - middle) / std::sqrt(c * std::max(1.0, c - 1));
+// Adds what the first `count` samples move their mean by.
+void add_moves(const std::vector<double>& samples, std::size_t count, double sign,
+               std::vector<double>& to) {
+  const std::vector<double> moves = error_moves(std::span(samples).first(count));
+  for (std::size_t k = 0; k < count; ++k) to[k] += sign * moves[k];
 }
 
 }  // namespace
@@ -218,10 +214,10 @@ std::vector<std::vector<double>> Scores::skin_moves() const {
   std::vector<std::vector<double>> out;
   for (const auto& s : skins) {
     std::vector<double>& centred = out.emplace_back(n, 0);
-    add_centred(s, s.size(), 1, centred);
+    add_moves(s, s.size(), 1, centred);
     if (s.size() == n) continue;
-    add_centred(carrier, n, 1, centred);
-    add_centred(carrier, s.size(), -1, centred);
+    add_moves(carrier, n, 1, centred);
+    add_moves(carrier, s.size(), -1, centred);
   }
   return out;
 }

@@ -290,8 +290,9 @@ std::vector<std::string> decision_grounds(const ResultFiles& f) {
   const std::size_t shown = f.result.best;
   std::string sure = fmt::format(
       "How sure: of the {} designs of the front {} is the best in {} with probability {}, by this "
-      "model and over {} members of belief (values of the finger and choices of the model that the "
-      "measurements leave open; numerical errors are not in it). On average it stays {} behind "
+      "model, over {} members of belief (values of the finger and choices of the model that the "
+      "measurements leave open) and what the skins of each leave open; errors of the grid and of "
+      "the 3-D field are not in it. On average it stays {} behind "
       "the best design of each member (the expected regret){}",
       stated(count_number("designs of the front", d.designs.size(), {Stage::Confirm}),
              fmt::format("{}", d.designs.size())),

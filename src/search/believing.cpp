@@ -13,10 +13,7 @@ bool judge_members(Run& run, FinalDesign& f) {
   if (run.stopped_before_next()) return false;
   const std::vector<TaskAnswer> answers = run.replay.answers(requests);
   run.problem.add_steps(f.confirmed, answers);
-  std::vector<std::vector<TaskAnswer>> members;
-  for (const TaskAnswer& a : answers) members.push_back(a.members);
-  for (std::size_t m = 0; m < run.problem.belief()->members.size(); ++m)
-    f.members.push_back(score_at(run.problem, f.design, f.answers, members, m));
+  add_members(run.problem, answers, f);
   return true;
 }
 

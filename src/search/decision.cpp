@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "config/describe.h"
+#include "numerics/statistics.h"
 #include "search/run.h"
 
 namespace papilla::search {
@@ -35,6 +36,36 @@ TaskAnswer moved_answer(const StudyGoals& goals, const TaskAnswer& confirmed, co
   }
   out.worst = moved(out.worst, own.worst, there.worst, true);
   out.oxide_margin = moved(out.oxide_margin, own.oxide_margin, there.oxide_margin, true);
+  return out;
+}
+
+// What one of the skins behind a number moves it by.
+double skin_move(const std::vector<double>& samples, std::size_t skin) {
+  return skin < samples.size() ? error_moves(samples)[skin] : 0;
+}
+
+TaskAnswer by_skin(const StudyGoals& goals, const TaskAnswer& answer, std::size_t skin) {
+  TaskAnswer out = answer;
+  for (std::size_t k = 0; k < answer.samples.size(); ++k) {
+    TaskObjective& o = out.objectives[k];
+    const auto of = [&](double& number, std::size_t i) {
+      number += skin_move(answer.samples[k][i].sampling, skin);
+    };
+    if (goals.by_points(k)) {
+      for (std::size_t i = 0; i < o.points.size(); ++i) of(o.points[i], i);
+    } else {
+      of(o.value, 0);
+    }
+  }
+  out.worst += skin_move(answer.worst_samples, skin);
+  return out;
+}
+
+std::size_t skins_behind(const TaskAnswer& answer) {
+  std::size_t out = answer.worst_samples.size();
+  for (const std::vector<ErrorSamples>& objective : answer.samples) {
+    for (const ErrorSamples& number : objective) out = std::max(out, number.sampling.size());
+  }
   return out;
 }
 
@@ -101,19 +132,30 @@ MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDes
                          const PickRule& rule, const std::vector<Extent>& extents) {
   MemberWorth out;
   for (const BeliefMember& m : problem.belief()->members) out.weights.push_back(m.weight);
+  const auto worth_of = [&](const Score& score) {
+    return score.ok ? pick_worth(rule, pick_candidate(problem, score), extents) : std::nan("");
+  };
+  std::vector<SkinnedWorth> own;
   for (const FinalDesign& f : designs) {
+    own.push_back({worth_of(f.confirmed)});
+    for (const Score& moved : f.confirmed_by_skin)
+      own.back().by_skin.push_back(worth_of(moved) - own.back().worth);
     std::vector<double>& values = out.worth.emplace_back();
+    std::vector<std::vector<double>>& by_skin = out.by_skin.emplace_back();
     std::vector<std::vector<bool>>& kept = out.kept.emplace_back(
         problem.study().constraints.size(), std::vector<bool>(f.members.size(), false));
     for (std::size_t m = 0; m < f.members.size(); ++m) {
       const Score& there = f.members[m];
-      values.push_back(there.ok ? pick_worth(rule, pick_candidate(problem, there), extents)
-                                : std::nan(""));
+      values.push_back(worth_of(there));
+      std::vector<double>& moves = by_skin.emplace_back();
       if (!there.ok) continue;
+      for (const Score& moved : f.members_by_skin[m])
+        moves.push_back(worth_of(moved) - values.back());
       const std::vector<LimitValue> limits = problem.constraints().values(f.design, there);
       for (std::size_t k = 0; k < kept.size(); ++k) kept[k][m] = limits[k].kept();
     }
   }
+  shrink_moves(own, out);
   return out;
 }
 
@@ -125,19 +167,40 @@ PickCandidate pick_candidate(const StudyProblem& problem, const Score& score) {
   return out;
 }
 
-Score score_at(const StudyProblem& problem, const Design& design,
-               const std::vector<TaskAnswer>& confirmed,
-               const std::vector<std::vector<TaskAnswer>>& members, std::size_t member) {
+void add_members(const StudyProblem& problem, const std::vector<TaskAnswer>& answers,
+                 FinalDesign& design) {
   const std::size_t nominal = problem.nominal_tasks(), scatter = problem.study().scatter.size();
-  std::vector<TaskAnswer> there;
-  for (std::size_t t = 0; t < confirmed.size(); ++t) {
-    // Scatter of fabrication is moved as what is designed.
-    const std::vector<TaskAnswer>& of = members[t < nominal ? t : (t - nominal) / (2 * scatter)];
-    there.push_back(member + 1 < of.size()
-                        ? moved_answer(problem.goals(), confirmed[t], of.back(), of[member])
-                        : TaskAnswer::refused(TaskStatus::Kind::NotDefined, "no answer"));
+  const StudyGoals& goals = problem.goals();
+  // Scatter of fabrication is moved as what is designed.
+  const auto members_of = [&](std::size_t t) -> const std::vector<TaskAnswer>& {
+    return answers[t < nominal ? t : (t - nominal) / (2 * scatter)].members;
+  };
+  const auto score_at = [&](std::size_t member, auto&& there) {
+    std::vector<TaskAnswer> moved;
+    for (std::size_t t = 0; t < design.answers.size(); ++t) {
+      const std::vector<TaskAnswer>& of = members_of(t);
+      moved.push_back(
+          member + 1 < of.size()
+              ? moved_answer(goals, there(design.answers[t]), there(of.back()), there(of[member]))
+              : TaskAnswer::refused(TaskStatus::Kind::NotDefined, "no answer"));
+    }
+    return problem.score(design.design, moved);
+  };
+  std::size_t skins = 0;
+  for (std::size_t t = 0; t < nominal; ++t)
+    skins = std::max(skins, skins_behind(design.answers[t]));
+  for (std::size_t skin = 0; skin < skins; ++skin) {
+    std::vector<TaskAnswer> moved;
+    for (const TaskAnswer& a : design.answers) moved.push_back(by_skin(goals, a, skin));
+    design.confirmed_by_skin.push_back(problem.score(design.design, moved));
   }
-  return problem.score(design, there);
+  for (std::size_t m = 0; m < problem.belief()->members.size(); ++m) {
+    design.members.push_back(
+        score_at(m, [](const TaskAnswer& a) -> const TaskAnswer& { return a; }));
+    std::vector<Score>& by = design.members_by_skin.emplace_back();
+    for (std::size_t skin = 0; skin < skins; ++skin)
+      by.push_back(score_at(m, [&](const TaskAnswer& a) { return by_skin(goals, a, skin); }));
+  }
 }
 
 std::vector<bool> on_front_of_belief(const StudyProblem& problem,

@@ -35,12 +35,11 @@ struct Decision {
   bool sure(double p_limits) const { return designs[best].p_limits >= p_limits - 1e-9; }
 };
 
-// What a design has at a member of belief: its confirmed numbers moved as the member moves them on
-// few skins. confirmed: its answers, a task each; members: [task][member], last the finger as it
-// is. Not ok where a task has no answer there. Eq. accuracy.15
-Score score_at(const StudyProblem& problem, const Design& design,
-               const std::vector<TaskAnswer>& confirmed,
-               const std::vector<std::vector<TaskAnswer>>& members, std::size_t member);
+// What a confirmed design has at the members of belief, and what the skins leave open of it: its
+// numbers moved as the members move them on few skins. answers: evaluate_steps of each task as
+// designed. A score is not ok where a task has no answer there. Eq. accuracy.15
+void add_members(const StudyProblem& problem, const std::vector<TaskAnswer>& answers,
+                 FinalDesign& design);
 
 // Whether no other of the finalists is better in every objective and, under a drive, in the worst
 // modulation by the confirmed numbers and at every member of belief.

@@ -18,8 +18,9 @@ constexpr int kFreshSkins = 1000;  // the confirmation's: none of what came befo
 // Designs that the level between judges: one for so many evaluations of the search, at most.
 constexpr int kEvaluationsPerNarrowing = 3;
 constexpr int kMostNarrowings = 32;
-// Steps of the parameters, members of belief: skins over all fingers, pixels.
-constexpr int kStepSkins = 12, kMemberSkins = 8, kStepGrid = 64;
+// Steps of the parameters: skins over all fingers, pixels. Members of belief: skins over all
+// fingers, and of each at least, as what they do differs from skin to skin.
+constexpr int kStepSkins = 12, kMembersSkins = 8, kLeastMemberSkins = 4, kStepGrid = 64;
 // Peak of a process, measured at 128, 256, 512 and 1024 pixels per side (53, 62, 104 and 262 MB):
 // heights, gap, pressure, tractions, field and their transforms.
 constexpr double kBytesOfProgram = 50e6, kBytesPerPixel = 210;
@@ -108,6 +109,12 @@ constexpr double kVoltageByLoads = 0.9, kVoltageByAreas = 2.3;
 // The branch to pull-in, over an evaluation: a few patches in many states.
 constexpr double kPullIn = 1;
 
+// Of a task's model part.
+ModelCost steps_cost(const StudyProblem& problem, const Fidelity& confirmed) {
+  const Fidelity few = steps_fidelity(problem, confirmed);
+  return model_cost(problem.tasks().front().finger, few, few.skins);
+}
+
 double priced(const StudyProblem& problem, const Fidelity& fidelity) {
   const double each = fidelity.estimator == Estimator::Area ? kVoltageByAreas : kVoltageByLoads;
   const auto targets = static_cast<double>(problem.goals().voltage_targets.size());
@@ -155,8 +162,10 @@ std::size_t designs_with_model_part(const StudyProblem& problem) {
 }
 
 Fidelity steps_fidelity(const StudyProblem& problem, Fidelity confirmed) {
-  const int over_all = problem.belief() ? kMemberSkins : kStepSkins;
-  confirmed.skins = std::max(2, over_all / static_cast<int>(problem.nominal_tasks()));
+  const auto tasks = static_cast<int>(problem.nominal_tasks());
+  const int wanted = problem.belief() ? std::max(kLeastMemberSkins, kMembersSkins / tasks)
+                                      : std::max(2, kStepSkins / tasks);
+  confirmed.skins = std::min(confirmed.skins, wanted);
   confirmed.grid = kStepGrid;
   return confirmed;
 }
@@ -170,7 +179,7 @@ std::size_t narrowings(const SearchProblem& p) {
 double task_price(const StudyProblem& problem, Stage stage, double most_seconds) {
   const Fidelity f = stage_fidelity(problem, stage, most_seconds);
   if (stage != Stage::Steps && stage != Stage::Belief) return priced(problem, f);
-  const ModelCost cost = model_cost(problem.tasks().front().finger, steps_fidelity(problem, f));
+  const ModelCost cost = steps_cost(problem, f);
   if (problem.belief()) return cost.runs * priced(problem, cost.fidelity);
   return cost.runs * plan_at(problem, cost.fidelity).seconds();
 }
@@ -256,9 +265,7 @@ std::string search_plan(const Study& study) {
   out += fmt::format("\nconfirmation of up to {} finalists, fresh skins:\n", kFinalists + 1) +
          level(Stage::Confirm);
   if (problem.belief()) {
-    const ModelCost cost =
-        model_cost(problem.tasks().front().finger,
-                   steps_fidelity(problem, stage_fidelity(problem, Stage::Belief)));
+    const ModelCost cost = steps_cost(problem, stage_fidelity(problem, Stage::Belief));
     out += fmt::format(
                "\nfinalists at the {} members of the belief in {}, for which of them to build:\n",
                problem.belief()->members.size(),

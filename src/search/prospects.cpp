@@ -7,9 +7,14 @@
 #include "base/check.h"
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/random.h"
+#include "numerics/statistics.h"
 
 namespace papilla::search {
 namespace {
+
+// Of the skins, a member: p(best) over the 32 members of the shipped belief to .011.
+constexpr int kDraws = 64;
 
 double total(const std::vector<double>& weights) {
   return std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -17,7 +22,7 @@ double total(const std::vector<double>& weights) {
 
 // The best that is to be had at a member: of the designs that keep every limit there, else of all
 // that are worth something; NaN where none is.
-double best_worth(const MemberWorth& d, std::size_t member) {
+double best_at(const MemberWorth& d, std::size_t member) {
   double kept = std::nan(""), any = std::nan("");
   for (std::size_t i = 0; i < d.worth.size(); ++i) {
     any = std::fmax(any, d.worth[i][member]);
@@ -36,7 +41,7 @@ double worth_or_least(const MemberWorth& d, std::size_t design, std::size_t memb
 
 void add_member(const MemberWorth& d, std::size_t member, double weight,
                 std::vector<Prospect>& out) {
-  const double best = best_worth(d, member);
+  const double best = best_at(d, member);
   if (std::isnan(best)) return;  // nothing is known there: no design loses to another
   const bool any_keeps = [&] {
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -67,6 +72,65 @@ MemberWorth of_members(const MemberWorth& all, const std::vector<std::size_t>& m
   for (auto& of : out.worth) picked(of);
   for (auto& design : out.kept) {
     for (auto& of : design) picked(of);
+  }
+  for (auto& of : out.by_skin) picked(of);
+  return out;
+}
+
+// How much of moves is theirs, and one standard error: k where their squares, by `freedom` degrees
+// of it, are `ratio` times those of their scatter, whose share is 1 - k; any k is as likely before.
+// Eq. search.23
+Estimate share_of_moves(double ratio, double freedom) {
+  constexpr int kNodes = 200;
+  double sum = 0, first = 0, second = 0;
+  for (int i = 0; i < kNodes; ++i) {
+    const double noise = (i + 0.5) / kNodes;  // 1 - k
+    // Its largest logarithm is that at noise = 1/ratio or 1.
+    const double most = std::min(1.0, 1 / ratio);
+    const double log_likelihood = 0.5 * freedom * (std::log(noise / most) - ratio * (noise - most));
+    const double weight = std::exp(log_likelihood);
+    sum += weight;
+    first += weight * (1 - noise);
+    second += weight * square(1 - noise);
+  }
+  const double mean = first / sum;
+  return {mean, std::sqrt(std::max(0.0, second / sum - square(mean)))};
+}
+
+// A standard normal number a skin, wider as few skins know their own scatter badly: Student's
+// distribution of them all together.
+std::vector<double> drawn_skins(RandomStream& random, std::size_t skins) {
+  std::vector<double> out(skins);
+  for (double& z : out) z = random.normal();
+  double squares = 0;
+  for (std::size_t k = 1; k < skins; ++k) squares += square(random.normal());
+  for (double& z : out) z *= std::sqrt(static_cast<double>(skins - 1) / squares);
+  return out;
+}
+
+// Each member as so many that share its weight, at draws of the skins. Eq. search.15
+MemberWorth over_skins(const MemberWorth& all) {
+  std::size_t skins = 0;
+  for (const auto& design : all.by_skin) {
+    for (const auto& member : design) skins = std::max(skins, member.size());
+  }
+  if (skins < 2) return all;
+  MemberWorth out;
+  out.worth.resize(all.worth.size());
+  for (const auto& limits : all.kept) out.kept.emplace_back(limits.size());
+  RandomStream random(1, "decision");
+  for (std::size_t m = 0; m < all.weights.size(); ++m) {
+    for (int draw = 0; draw < kDraws; ++draw) {
+      const std::vector<double> z = drawn_skins(random, skins);
+      out.weights.push_back(all.weights[m]);
+      for (std::size_t i = 0; i < all.worth.size(); ++i) {
+        const std::vector<double>& moves = all.by_skin[i][m];
+        out.worth[i].push_back(
+            std::inner_product(moves.begin(), moves.end(), z.begin(), all.worth[i][m]));
+        for (std::size_t k = 0; k < all.kept[i].size(); ++k)
+          out.kept[i][k].push_back(all.kept[i][k][m]);
+      }
+    }
   }
   return out;
 }
@@ -99,8 +163,56 @@ bool MemberWorth::keeps(std::size_t design, std::size_t member) const {
                      [member](const std::vector<bool>& of) { return of[member]; });
 }
 
-std::vector<Prospect> prospects(const MemberWorth& d, const BeliefRisk& risk) {
-  PAPILLA_CHECK(d.kept.size() == d.worth.size(), "limits of every design");
+void shrink_moves(const std::vector<SkinnedWorth>& own, MemberWorth& designs) {
+  for (std::size_t m = 0; m < designs.weights.size(); ++m) {
+    std::vector<std::size_t> known;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      if (std::isfinite(designs.worth[i][m] - own[i].worth)) known.push_back(i);
+    }
+    const auto n = static_cast<double>(known.size());
+    if (n < 2) continue;
+    // Moves beyond the mean one of all designs; a skin's are its moves of that.
+    const auto apart = [&](const auto& move) {
+      std::vector<double> out;
+      for (const std::size_t i : known) out.push_back(move(i));
+      const double mean = total(out) / n;
+      for (double& v : out) v -= mean;
+      return out;
+    };
+    const auto squares = [&](const std::vector<double>& v) {
+      return std::inner_product(v.begin(), v.end(), v.begin(), 0.0) / (n - 1);
+    };
+    const auto at = [](const std::vector<double>& v, std::size_t s) {
+      return s < v.size() ? v[s] : 0;
+    };
+    std::size_t skins = 0;
+    for (const std::size_t i : known)
+      skins = std::max({skins, own[i].by_skin.size(), designs.by_skin[i][m].size()});
+    const std::vector<double> moves =
+        apart([&](std::size_t i) { return designs.worth[i][m] - own[i].worth; });
+    std::vector<std::vector<double>> of_skins;
+    double scatter = 0;
+    for (std::size_t s = 0; s < skins; ++s) {
+      of_skins.push_back(apart(
+          [&](std::size_t i) { return at(designs.by_skin[i][m], s) - at(own[i].by_skin, s); }));
+      scatter += squares(of_skins.back());
+    }
+    if (!(scatter > 0)) continue;
+    const Estimate kept = share_of_moves(squares(moves) / scatter, n - 1);
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      designs.worth[known[k]][m] -= (1 - kept.value) * moves[k];
+      std::vector<double>& by_skin = designs.by_skin[known[k]][m];
+      by_skin.resize(skins, 0);
+      for (std::size_t s = 0; s < skins; ++s)
+        by_skin[s] -= (1 - std::sqrt(kept.value)) * of_skins[s][k];
+      by_skin.push_back(kept.se * moves[k]);
+    }
+  }
+}
+
+std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& risk) {
+  PAPILLA_CHECK(designs.kept.size() == designs.worth.size(), "limits of every design");
+  const MemberWorth d = over_skins(designs);
   std::vector<Prospect> out(d.worth.size());
   const double all = total(d.weights);
   for (std::size_t m = 0; m < d.weights.size(); ++m) add_member(d, m, d.weights[m] / all, out);
@@ -120,10 +232,11 @@ std::vector<Prospect> prospects(const MemberWorth& d, const BeliefRisk& risk) {
   return out;
 }
 
-double best_worth(const MemberWorth& d) {
+double best_worth(const MemberWorth& designs) {
+  const MemberWorth d = over_skins(designs);
   double sum = 0, weight = 0;
   for (std::size_t m = 0; m < d.weights.size(); ++m) {
-    const double best = best_worth(d, m);
+    const double best = best_at(d, m);
     if (std::isnan(best)) continue;
     sum += d.weights[m] * best;
     weight += d.weights[m];

@@ -28,10 +28,23 @@ struct MemberWorth {
   // [design][member], higher is better; NaN: the design has none there.
   std::vector<std::vector<double>> worth;
   std::vector<std::vector<std::vector<bool>>> kept;  // [design][limit][member]
+  // [design][member][skin] What a standard error by each of the skins moves the worth by: designs
+  // share skins, so that much of it is common to them. Empty: worth is known as well as it is said.
+  std::vector<std::vector<std::vector<double>>> by_skin{};
 
   // No limit is broken there, and the design is worth something.
   bool keeps(std::size_t design, std::size_t member) const;
 };
+
+// A worth and what each of the skins behind it moves it by.
+struct SkinnedWorth {
+  double worth = 0;
+  std::vector<double> by_skin{};
+};
+// What members tell designs apart by beyond `own`, what these are worth as the finger is, is
+// shrunk by what it scatters from skin to skin; how far is not known, which is a skin more.
+// Eq. search.23
+void shrink_moves(const std::vector<SkinnedWorth>& own, MemberWorth& designs);
 
 struct Prospect {
   double p_best = 0;              // Eq. search.15
@@ -42,7 +55,7 @@ struct Prospect {
 };
 std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& risk);
 
-// What the best at each member is worth, on average over the members.
+// What the best at each member, and draw of its skins, is worth on average.
 double best_worth(const MemberWorth& designs);
 
 // The highest merit of those that keep every limit with this probability; where none does, of

@@ -40,7 +40,7 @@ void members(Codec& c, ErrorSamples& s) {
 template <class Codec>
 void members(Codec& c, TaskAnswer& a) {
   code_all(c, a.status, a.objectives, a.worst, a.oxide_margin, a.look, a.limited, a.limited_errors,
-           a.samples, a.steps, a.members, a.report);
+           a.samples, a.worst_samples, a.steps, a.members, a.report);
 }
 template <class Codec>
 void members(Codec& c, Outcome& o) {

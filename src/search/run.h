@@ -53,6 +53,10 @@ struct FinalDesign {
   Score searched, confirmed;
   std::vector<TaskAnswer> answers;  // behind the confirmed score, without their reports
   std::vector<Score> members;       // at each member of belief; empty: not asked for
+  // [skin] and [member][skin] As each of the skins behind the answers moves `confirmed` and
+  // `members` by a standard error; where `members` are.
+  std::vector<Score> confirmed_by_skin;
+  std::vector<std::vector<Score>> members_by_skin;
   bool feasible = false, on_front = false;
   // "front/01"; "best" for the least-violating one where none keeps every constraint; empty for the
   // rest.

@@ -58,14 +58,12 @@ std::vector<StepSamples> steps_of(const StudyGoals& goals, const Response& respo
   return out;
 }
 
-// The samples behind each number that each objective is made of.
-std::vector<std::vector<ErrorSamples>> samples_of(const StudyGoals& goals,
-                                                  const Responses& responses) {
-  std::vector<std::vector<ErrorSamples>> out;
+// The samples behind each number that each objective is made of, and behind the worst modulation.
+void add_samples(const StudyGoals& goals, const Responses& responses, TaskAnswer& answer) {
   for (std::size_t k = 0; k < goals.objectives.size(); ++k) {
     const Response& response = responses.of(goals.objectives[k]);
     const MetricExpression& e = goals.objectives[k].expression;
-    std::vector<ErrorSamples>& of = out.emplace_back();
+    std::vector<ErrorSamples>& of = answer.samples.emplace_back();
     if (!goals.by_points(k)) {
       of.push_back(error_samples(e.summary, e.metric, response));
       continue;
@@ -73,7 +71,7 @@ std::vector<std::vector<ErrorSamples>> samples_of(const StudyGoals& goals,
     for (std::size_t i = 0; i < response.points.size(); ++i)
       of.push_back(error_samples_at(i, e.metric, response));
   }
-  return out;
+  answer.worst_samples = error_samples(Summary::Worst, kModulation, responses.own).sampling;
 }
 
 // Finalists are worth the target of the study; the search is not.
@@ -131,6 +129,14 @@ double oxide_margin(const StudyGoals& goals, const Design& d, const Response& re
       out = std::min(out, breakdown_voltage(d.surface, d.texture) / v.amplitude.value);
   }
   return out;
+}
+
+// What is not known of finger and model, on few skins; what these are run with.
+Fidelity add_model_part(const StudyProblem& problem, const Scene& scene, const Design& d,
+                        const Fidelity& fidelity, Response& response) {
+  const Fidelity few = steps_fidelity(problem, fidelity);
+  add_model_errors(response, scene, d.texture, few, few.skins);
+  return few;
 }
 
 }  // namespace
@@ -200,11 +206,11 @@ TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std:
     return *std::move(refused);
   if (work.confirmed && task.nominal() && d.accuracy.parameters &&
       unknown_model(scene.finger).empty())
-    add_model_errors(response, scene, d.texture, steps_fidelity(problem, work.fidelity));
+    add_model_part(problem, scene, d, work.fidelity, response);
   both.pen = pen_response(goals, d, work.fidelity);
   TaskAnswer out = answer_of(goals, d, task.name, both);
   if (!out.status.ok() || !work.confirmed) return out;
-  out.samples = samples_of(goals, both);
+  add_samples(goals, both, out);
   if (work.text) out.report = work.text(response);
   return out;
 }
@@ -227,6 +233,7 @@ std::vector<TaskAnswer> member_answers(const StudyGoals& goals, const Scene& sce
     there.driven = response.driven;
     auto refused = complete(there, goals, scenes[m], d, task, fidelity);
     out.push_back(refused ? *std::move(refused) : answer_of(goals, d, task, both));
+    if (out.back().status.ok()) add_samples(goals, both, out.back());
   }
   return out;
 }
@@ -240,13 +247,12 @@ TaskAnswer evaluate_steps(const StudyProblem& problem, const Design& design, std
   if (problem.goals().looks) response.appearance = appearance_of(d);
   const Scene scene = scene_of(d);
   response.driven = scene.drive.driven();
-  const Fidelity few = steps_fidelity(problem, fidelity);
-  add_model_errors(response, scene, d.texture, few);
+  const Fidelity few = add_model_part(problem, scene, d, fidelity, response);
   TaskAnswer out;
   out.steps = steps_of(problem.goals(), response);
   if (!response.belief.members.empty())
     out.members = member_answers(problem.goals(), scene, d, problem.tasks()[task].name, response,
-                                 belief_fidelity(few));
+                                 belief_fidelity(few, few.skins));
   return out;
 }
 

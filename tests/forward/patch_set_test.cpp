@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "base/constants.h"
 #include "forward/forward.h"
+#include "numerics/statistics.h"
 
 namespace papilla::tests::patch_set_test {
 namespace {
@@ -27,7 +29,8 @@ struct Solved {
 };
 
 TEST(PatchSet, WithoutASkinIsTheAnswerOfTheOthers) {
-  const Solved s;
+  Solved s;
+  s.set.others.clear();  // the load law of all
   const Response all = respond(s.scene, s.fidelity, s.set);
   EXPECT_TRUE(all.driven);
   EXPECT_EQ(all.fidelity.skins, 3);
@@ -45,6 +48,60 @@ TEST(PatchSet, WithoutASkinIsTheAnswerOfTheOthers) {
         EXPECT_NEAR((all.without[k][i].*q.value).value, value, 1e-12 * std::abs(value)) << k;
       }
     }
+  }
+}
+
+TEST(PatchSet, WithoutASampleTheLoadLawIsThatOfTheOtherSamples) {
+  Solved s;
+  s.scene.model.coupling = Coupling::Equilibrium;
+  s.fidelity.equilibrium_skins = 3;
+  const Response all = respond(s.scene, s.fidelity, solve_patches(s.scene, Texture{}, s.fidelity));
+  Fidelity last = s.fidelity;
+  last.first_skin = 1;
+  last.skins = last.equilibrium_skins = 2;
+  const Response rest = respond(s.scene, last, solve_patches(s.scene, Texture{}, last));
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const PointQuantity& q : kPointQuantities) {
+      const double value = (rest.points[i].*q.value).value;
+      EXPECT_NEAR((all.without[0][i].*q.value).value, value, 1e-9 * std::abs(value)) << i;
+    }
+  }
+}
+
+// The jackknife holds what other skins scatter by, the load law's own scatter with it.
+TEST(PatchSet, SkinsScatterByTheStatedErrorWhereTheLoadLawIsOfFew) {
+  Solved s;
+  s.scene.model.coupling = Coupling::Equilibrium;
+  s.scene.drive.amplitude = 200;
+  s.scene.environment.relative_humidity = {0.35};
+  s.scene.environment.weights = {1};
+  constexpr int kSets = 160;
+  for (const auto& [skins, sampled] : {std::pair(4, 4), {6, 2}}) {
+    s.fidelity.skins = skins;
+    s.fidelity.equilibrium_skins = sampled;
+    std::vector<double> found;
+    double stated = 0, by_common_law = 0;
+    for (int k = 0; k < kSets; ++k) {
+      s.fidelity.first_skin = k * skins;
+      PatchSet set = solve_patches(s.scene, Texture{}, s.fidelity);
+      const auto variance = [&] {
+        const Response there = respond(s.scene, s.fidelity, set);
+        std::vector<double> without;
+        for (const auto& others : there.without) without.push_back(others[0].modulation.value);
+        const double all = there.points[0].modulation.value;
+        return square(mean_estimate(jackknife_samples(all, without)).se);
+      };
+      found.push_back(respond(s.scene, s.fidelity, set).points[0].modulation.value);
+      stated += variance() / kSets;
+      set.others.clear();
+      by_common_law += variance() / kSets;
+    }
+    const double scatter = square(mean_estimate(found).se) * kSets;
+    // 159 degrees of freedom: the scatter is known to 11 % (one standard error). By the law of all
+    // skins the stated variance is 2.8 and .6 times that.
+    EXPECT_NEAR(stated / scatter, 1, 0.33) << sampled;
+    EXPECT_GT(std::abs(std::log(by_common_law / scatter)), std::abs(std::log(stated / scatter)))
+        << sampled;
   }
 }
 

@@ -323,6 +323,18 @@ TEST(Decision, ARunThatIsContinuedWithAnotherRiskAsksNoMemberAgain) {
                            [](const TaskRequest& r) { return r.stage == Stage::Belief; }));
 }
 
+// Of one task, with its answers at members of belief, last the finger as it is.
+FinalDesign with_members(const StudyProblem& problem, const TaskAnswer& confirmed,
+                         const std::vector<TaskAnswer>& members) {
+  FinalDesign out;
+  out.design = problem.study().design;
+  out.answers = {confirmed};
+  TaskAnswer few;
+  few.members = members;
+  add_members(problem, {few}, out);
+  return out;
+}
+
 TEST(Decision, AMemberMovesSizesByAFactorAndSpreadsByADifference) {
   const Study study = believing(0.3);
   const StudyProblem problem(study);
@@ -331,14 +343,57 @@ TEST(Decision, AMemberMovesSizesByAFactorAndSpreadsByADifference) {
   there.objectives[0].value *= 1.5;
   for (double& p : there.objectives[0].points) p *= 1.5;
   there.objectives[1].value += 0.07;
-  const Score score = score_at(problem, problem.study().design, {confirmed}, {{there, own}}, 0);
+  const FinalDesign f = with_members(
+      problem, confirmed, {there, TaskAnswer::refused(TaskStatus::Kind::NoEquilibrium, "x"), own});
+  ASSERT_EQ(f.members.size(), 3u);
+  const Score& score = f.members[0];
   ASSERT_TRUE(score.ok);
   EXPECT_NEAR(score.values[0], 1.5 * 0.8, 1e-12);
   EXPECT_NEAR(score.values[1], 0.5 + 0.07, 1e-12);
   EXPECT_NEAR(score.worst, 0.4 * 1.5, 1e-12);
-  EXPECT_FALSE(score_at(problem, problem.study().design, {confirmed},
-                        {{TaskAnswer::refused(TaskStatus::Kind::NoEquilibrium, "x"), own}}, 0)
-                   .ok);
+  EXPECT_FALSE(f.members[1].ok);
+  EXPECT_FALSE(f.members[2].ok);              // belief has three members, the answer two
+  EXPECT_TRUE(f.members_by_skin[0].empty());  // no skins are known
+}
+
+// The worst modulation is C m / o. A skin that moves all three by the same ratio moves it by that.
+TEST(Decision, ASkinMovesAMemberByWhatItMovesOfAllThreeNumbers) {
+  const Study study = believing(0.3);
+  const StudyProblem problem(study);
+  TaskAnswer confirmed = at(0, 0, 0.4), own = at(0, 0, 0.2), there = at(0, 0, 0.3);
+  const auto sampled = [](double value, const std::vector<double>& ratios) {
+    std::vector<double> out;
+    for (const double r : ratios) out.push_back(value * r);
+    return out;
+  };
+  const std::vector<double> common = {0.9, 1.1, 1, 1}, of_member = {1, 1, 0.8, 1.2};
+  confirmed.worst_samples = sampled(0.4, common);
+  own.worst_samples = sampled(0.2, common);
+  there.worst_samples = sampled(0.3, common);
+  const auto moves = [&](const TaskAnswer& member) {
+    const FinalDesign f = with_members(problem, confirmed, {member, own});
+    std::vector<double> out;
+    for (const Score& moved : f.members_by_skin.at(0))
+      out.push_back(moved.worst - f.members[0].worst);
+    return out;
+  };
+  const double tenth = 0.1 / std::sqrt(4 * 3.0);
+  std::vector<double> found = moves(there);
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_NEAR(found[0], -0.6 * tenth, 1e-12);
+  EXPECT_NEAR(found[1], 0.6 * tenth, 1e-12);
+  EXPECT_NEAR(found[2], 0, 1e-12);
+  there.worst_samples = sampled(0.3, of_member);
+  found = moves(there);
+  // What the confirmed number and the few skins have in common cancels.
+  EXPECT_NEAR(found[0], 0, 1e-12);
+  EXPECT_NEAR(found[2], -0.6 * 2 * tenth, 1e-12);
+  EXPECT_NEAR(found[3], 0.6 * 2 * tenth, 1e-12);
+  const MemberWorth worth = member_worth(problem, {with_members(problem, confirmed, {there, own})},
+                                         decision_rule(problem, ""), {});
+  ASSERT_EQ(worth.by_skin.at(0).at(0).size(), 4u);
+  EXPECT_NEAR(worth.by_skin[0][0][2], found[2], 1e-12);
+  EXPECT_TRUE(worth.by_skin[0][2].empty());  // no answer there
 }
 
 }  // namespace

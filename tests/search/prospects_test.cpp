@@ -7,8 +7,10 @@
 #include <array>
 #include <cmath>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/random.h"
+#include "numerics/statistics.h"
 
 namespace papilla::tests::prospects_test {
 namespace {
@@ -53,6 +55,54 @@ TEST(Prospects, CancelWhatMovesAllDesignsAlike) {
     EXPECT_NEAR(p[i].p_best, q[i].p_best, 1e-12);
     EXPECT_NEAR(p[i].regret, q[i].regret, 1e-12);
   }
+}
+
+// Two designs whose difference four skins know to a standard error: Student's distribution.
+TEST(Prospects, AreOfWhatSkinsLeaveOpenToo) {
+  constexpr std::size_t kMembers = 200;  // with 64 draws each
+  MemberWorth d =
+      worth_of(std::vector<double>(kMembers, 1),
+               Matrix{std::vector<double>(kMembers, 1.1), std::vector<double>(kMembers, 1)});
+  const auto both = [&](const std::vector<double>& first, const std::vector<double>& second) {
+    d.by_skin = {std::vector(kMembers, first), std::vector(kMembers, second)};
+    return prospects(d, {});
+  };
+  // What skins move both by is no doubt.
+  EXPECT_NEAR(both({0.3, -0.1, 0.2, 0}, {0.3, -0.1, 0.2, 0})[0].p_best, 1, 1e-9);
+  const std::vector<Prospect> p = both({0.1, 0.1, 0, 0}, {0, 0, 0, -0.1});
+  const double error = std::sqrt(3) * 0.1;
+  EXPECT_NEAR(p[0].p_best, student_t_cdf(0.1 / error, 3), 0.015);
+  // Of either what is lost by the other, on average: they differ by the lead.
+  EXPECT_NEAR(p[1].regret - p[0].regret, 0.1, 0.01);
+  EXPECT_GT(p[0].regret, 0.02);
+  EXPECT_EQ(chosen(p, 0.9), 0u);
+  EXPECT_NEAR(best_worth(d), 1.1 + p[0].regret, 0.01);
+  // A second call says the same to the last bit.
+  EXPECT_EQ(prospects(d, {})[0].p_best, p[0].p_best);
+}
+
+// Members move three designs by 2, 3 and 4, the skins scatter by 0 to 10.
+TEST(Prospects, MovesAreShrunkByWhatSkinsScatterThemBy) {
+  const std::vector<SkinnedWorth> own = {{1, {0, 0.1}}, {2, {0, 0.1}}, {3, {0, 0.1}}};
+  const auto shrunk = [&](double scatter) {
+    MemberWorth d = worth_of({1}, {{3}, {5}, {7}});
+    d.by_skin = {{{scatter, 0.1}}, {{0, 0.1}}, {{-scatter, 0.1}}};
+    shrink_moves(own, d);
+    return d;
+  };
+  EXPECT_EQ(shrunk(0).worth, (Matrix{{3}, {5}, {7}}));
+  // Nothing but scatter, two degrees of freedom: the mean of k over (1 - k) is 1/3, its variance
+  // 1/18.
+  const MemberWorth some = shrunk(1e4);
+  const double kept = 1.0 / 3;
+  EXPECT_NEAR(some.worth[0][0], 1 + 3 - kept, 1e-4);
+  EXPECT_NEAR(some.worth[1][0], 2 + 3, 1e-12);
+  EXPECT_NEAR(some.by_skin[0][0][0], 1e4 * std::sqrt(kept), 1);
+  EXPECT_NEAR(some.by_skin[0][0][1], 0.1, 1e-12);  // of the design, not of the move
+  EXPECT_NEAR(some.by_skin[2][0][2], std::sqrt(1.0 / 18), 1e-4);
+  // Little scatter changes little.
+  EXPECT_NEAR(shrunk(0.01).worth[0][0], 3, 3e-3);
+  EXPECT_GT(shrunk(0.01).worth[0][0], 3);
 }
 
 TEST(Prospects, ALimitIsKeptWithTheWeightOfItsMembers) {
@@ -189,6 +239,53 @@ TEST(Prospects, AreTrueAsOftenAsTheySayOfTruthsDrawnFromBelief) {
     EXPECT_NEAR(so[bin], said[bin], 3 * std::sqrt(spread[bin])) << "bin " << bin;
   EXPECT_LT(by_regret, by_fit);
   EXPECT_NEAR(by_regret, expected, 0.1 * expected);  // 1500 truths scatter by some per cent
+}
+
+// The truth is one member; what it moves designs apart by is known from eight skins, as badly as
+// it is large.
+TEST(Prospects, AreTrueAsOftenAsTheySayWhereSkinsHideTheMoves) {
+  constexpr std::size_t kDesigns = 8, kSkins = 8, kMembers = 4, kBins = 4;
+  constexpr int kProblems = 3000;
+  RandomStream random(11, "hidden moves");
+  std::array<double, kBins> said{}, spread{}, so{};
+  double error = 0, error_as_measured = 0, expected = 0, regret = 0, regret_as_measured = 0;
+  for (int k = 0; k < kProblems; ++k) {
+    std::vector<SkinnedWorth> own;
+    std::vector<double> truth, measured;
+    MemberWorth d;
+    d.weights.assign(kMembers, 1);  // the same one, for its draws
+    for (std::size_t i = 0; i < kDesigns; ++i) {
+      own.push_back({0.5 * random.normal()});
+      truth.push_back(own.back().worth + random.normal());
+      std::vector<double> samples;
+      for (std::size_t s = 0; s < kSkins; ++s)
+        samples.push_back(truth.back() + std::sqrt(1.0 * kSkins) * random.normal());
+      measured.push_back(mean_estimate(samples).value);
+      d.worth.emplace_back(kMembers, measured.back());
+      d.by_skin.emplace_back(kMembers, error_moves(samples));
+      d.kept.emplace_back();
+    }
+    shrink_moves(own, d);
+    const std::vector<Prospect> p = prospects(d, {});
+    const std::size_t best = largest(truth), choice = chosen(p, 0.9);
+    for (std::size_t i = 0; i < kDesigns; ++i) {
+      const std::size_t bin = std::min(kBins - 1, static_cast<std::size_t>(kBins * p[i].p_best));
+      said[bin] += p[i].p_best;
+      spread[bin] += p[i].p_best * (1 - p[i].p_best);
+      so[bin] += i == best;
+      error += square(d.worth[i][0] - truth[i]);
+      error_as_measured += square(measured[i] - truth[i]);
+    }
+    expected += p[choice].regret;
+    regret += truth[best] - truth[choice];
+    regret_as_measured += truth[best] - truth[largest(measured)];
+  }
+  // How much of the moves is theirs is known from eight designs: three binomial errors and a tenth.
+  for (std::size_t bin = 0; bin < kBins; ++bin)
+    EXPECT_NEAR(so[bin], said[bin], 3 * std::sqrt(spread[bin]) + 0.1 * said[bin]) << "bin " << bin;
+  EXPECT_LT(error, 0.65 * error_as_measured);
+  EXPECT_LT(regret, 0.95 * regret_as_measured);
+  EXPECT_NEAR(regret, expected, 0.1 * expected);
 }
 
 }  // namespace

@@ -30,8 +30,9 @@ TEST(Stability, TheFlatSurfaceHasTheHighestMeanUnderEveryVariant) {
   EXPECT_EQ(s.variants.size(), 10u);
   EXPECT_EQ(s.times_on_front[0], 10);
   for (const StabilityVariant& v : s.variants) EXPECT_GT(v.values[0][0], v.values[1][0]) << v.name;
-  // The less the pull, the less is the difference known.
-  EXPECT_LE(s.times_on_front[1], 2);
+  // The less the pull, the less is the difference known: not worse than its error, the load law's
+  // scatter from skin to skin with it.
+  EXPECT_LE(s.times_on_front[1], 3);
   EXPECT_TRUE(s.stable(0));
   EXPECT_FALSE(s.stable(1));
   // Air that insulates leaves more of the pull, air that breaks down at any voltage less; one pass
