@@ -116,9 +116,13 @@ class Lab:
 
     def __init__(self, folder: Path) -> None:
         self.folder = v.path(folder, "folder")
+        state = self.state()
+        plans = state["plans"]
         self.batch: Batch | None = None
-        """The last one that this object has planned."""
-        self.state()
+        """The last one that was planned, here or before."""
+        if plans:
+            self.batch = Batch(plans[-1]["stop"], self.page,
+                               {"schema": state["schema"], "plan": plans[-1], "standing": state["standing"]})
 
     @classmethod
     def open(cls, sources: Source | Sequence[Source], folder: Path, *, belief: Path = "", worth: str = "", load: str = "",

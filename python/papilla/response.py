@@ -94,9 +94,10 @@ class Response:
         return xarray.Dataset(data, {"humidity": ("humidity", self.humidity, {"units": "1", "long_name": "relative humidity"})})
 
     def plot(self, ax: matplotlib.axes.Axes | None = None, quantity: str | None = None) -> matplotlib.axes.Axes:
-        """A quantity over humidity with a band of two standard errors; returns the axes. Needs matplotlib.
+        """A quantity over humidity; returns the axes. Needs matplotlib.
 
-        quantity: "modulation" (of driven designs the default), "friction_off", ...
+        The band is two numerical standard errors; where there is a belief, a lighter one is two standard deviations of
+        its model part. quantity: "modulation" (of driven designs the default), "friction_off", ...
         """
         import matplotlib.pyplot
 
@@ -105,11 +106,14 @@ class Response:
         if ax is None:
             ax = matplotlib.pyplot.subplots()[1]
         x = 100 * self.humidity
-        line, = ax.plot(x, shown.value, marker="o", label=name)
-        ax.fill_between(x, shown.value - 2 * shown.error, shown.value + 2 * shown.error, alpha=0.2,
-                        color=line.get_color())
+        line, = ax.plot(x, shown.value, marker="o", label=name.replace("_", " "))
+        for part, name_of, alpha in ((shown.model, "± 2 model", 0.1), (shown.numerical, "± 2 numerical", 0.25)):
+            if np.all(np.isfinite(part)):
+                ax.fill_between(x, shown.value - 2 * part, shown.value + 2 * part, alpha=alpha,
+                                color=line.get_color(), linewidth=0, label=name_of)
         ax.set_xlabel("relative humidity (%)")
-        ax.set_ylabel(name.replace("_", " "))
+        ax.set_ylabel(name.replace("_", " ") + (f" ({_UNITS[name]})" if _UNITS[name] else ""))
+        ax.legend()
         return ax
 
     @property

@@ -49,6 +49,13 @@ def test_a_table_counts_once_and_a_wrong_one_not_at_all(lab: pp.Lab, tmp_path: P
     assert lab.state()["standing"]["readings"] == 1
 
 
+def test_a_lab_that_is_opened_again_has_its_batch(lab: pp.Lab) -> None:
+    again = pp.Lab(lab.folder).batch
+    assert again is not None and lab.batch is not None
+    assert again.experiments == lab.batch.experiments
+    assert (again.purpose, again.stop) == (lab.batch.purpose, lab.batch.stop)
+
+
 def test_a_lab_takes_designs_and_starts_again_after_a_wrong_word(tmp_path: Path, lab: pp.Lab) -> None:
     design = pp.Design.load("m3_samples/a3h600.toml").with_({"accuracy.level": "draft", "accuracy.grid": 48, "title": "my holes"})
     options = {"belief": Path(lab.folder).parent / "belief.toml", "humidity": "35 %", "count": 1}

@@ -119,6 +119,10 @@ def test_a_plot_has_the_values(quick: pp.Design) -> None:
     ax = r.plot()
     assert ax.lines[0].get_ydata().tolist() == r.modulation.value.tolist()
     assert ax.lines[0].get_xdata().tolist() == [50]
+    labels = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert labels[0] == "modulation" and "± 2 numerical" in labels
+    assert ("± 2 model" in labels) == bool(np.all(np.isfinite(r.modulation.model)))
+    assert r.plot(quantity="friction_off").get_ylabel() == "friction off (N)"
 
 
 def test_a_difference_is_surer_than_two_values(quick: pp.Design) -> None:

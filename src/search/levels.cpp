@@ -193,9 +193,8 @@ double over_price(Stage stage) {
     case Stage::Rounding:
       return 1.4;
     case Stage::Belief:
-      return 1.75;
+      return 0.9;
     case Stage::Steps:
-      return 1.6;
     case Stage::Stability:
       return 0.8;
     case Stage::Search:
