@@ -61,6 +61,13 @@ TaskAnswer by_skin(const StudyGoals& goals, const TaskAnswer& answer, std::size_
   return out;
 }
 
+// As members move the number that a rule goes by. Eq. accuracy.15
+bool moves_in_proportion(const StudyProblem& problem, const PickRule& rule) {
+  if (rule.kind != PickRule::Kind::Objective) return rule.kind == PickRule::Kind::Worst;
+  const StudyObjective& o = problem.objectives()[rule.index];
+  return o.aimed || keeps_sign(o.expression.summary, o.expression.metric);
+}
+
 std::size_t skins_behind(const TaskAnswer& answer) {
   std::size_t out = answer.worst_samples.size();
   for (const std::vector<ErrorSamples>& objective : answer.samples) {
@@ -155,7 +162,7 @@ MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDes
       for (std::size_t k = 0; k < kept.size(); ++k) kept[k][m] = limits[k].kept();
     }
   }
-  shrink_moves(own, out);
+  shrink_moves(own, moves_in_proportion(problem, rule), out);
   return out;
 }
 

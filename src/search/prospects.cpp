@@ -97,6 +97,17 @@ Estimate share_of_moves(double ratio, double freedom) {
   return {mean, std::sqrt(std::max(0.0, second / sum - square(mean)))};
 }
 
+// Values without what they move all by alike, so that they sum up to nothing.
+std::vector<double> beyond(const std::vector<double>& alike, std::vector<double> values) {
+  const double factor = total(values) / total(alike);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] -= factor * alike[i];
+  return values;
+}
+
+double squares(const std::vector<double>& v) {
+  return std::inner_product(v.begin(), v.end(), v.begin(), 0.0);
+}
+
 // A standard normal number a skin, wider as few skins know their own scatter badly: Student's
 // distribution of them all together.
 std::vector<double> drawn_skins(RandomStream& random, std::size_t skins) {
@@ -163,42 +174,42 @@ bool MemberWorth::keeps(std::size_t design, std::size_t member) const {
                      [member](const std::vector<bool>& of) { return of[member]; });
 }
 
-void shrink_moves(const std::vector<SkinnedWorth>& own, MemberWorth& designs) {
+void shrink_moves(const std::vector<SkinnedWorth>& own, bool in_proportion, MemberWorth& designs) {
   for (std::size_t m = 0; m < designs.weights.size(); ++m) {
     std::vector<std::size_t> known;
+    std::vector<double> alike;  // what all designs move by, up to a factor
+    double there = 0, here = 0;
     for (std::size_t i = 0; i < own.size(); ++i) {
-      if (std::isfinite(designs.worth[i][m] - own[i].worth)) known.push_back(i);
+      if (!std::isfinite(designs.worth[i][m] - own[i].worth)) continue;
+      known.push_back(i);
+      alike.push_back(in_proportion ? own[i].worth : 1);
+      there += designs.worth[i][m];
+      here += own[i].worth;
     }
-    const auto n = static_cast<double>(known.size());
-    if (n < 2) continue;
-    // Moves beyond the mean one of all designs; a skin's are its moves of that.
-    const auto apart = [&](const auto& move) {
-      std::vector<double> out;
-      for (const std::size_t i : known) out.push_back(move(i));
-      const double mean = total(out) / n;
-      for (double& v : out) v -= mean;
-      return out;
-    };
-    const auto squares = [&](const std::vector<double>& v) {
-      return std::inner_product(v.begin(), v.end(), v.begin(), 0.0) / (n - 1);
-    };
+    if (known.size() < 2 || total(alike) == 0) continue;
+    const double factor = in_proportion ? there / here : 1;
     const auto at = [](const std::vector<double>& v, std::size_t s) {
       return s < v.size() ? v[s] : 0;
     };
     std::size_t skins = 0;
-    for (const std::size_t i : known)
+    std::vector<double> moves;
+    for (const std::size_t i : known) {
       skins = std::max({skins, own[i].by_skin.size(), designs.by_skin[i][m].size()});
-    const std::vector<double> moves =
-        apart([&](std::size_t i) { return designs.worth[i][m] - own[i].worth; });
+      moves.push_back(designs.worth[i][m] - factor * own[i].worth);
+    }
+    moves = beyond(alike, std::move(moves));
     std::vector<std::vector<double>> of_skins;
     double scatter = 0;
     for (std::size_t s = 0; s < skins; ++s) {
-      of_skins.push_back(apart(
-          [&](std::size_t i) { return at(designs.by_skin[i][m], s) - at(own[i].by_skin, s); }));
+      std::vector<double> move;
+      for (const std::size_t i : known)
+        move.push_back(at(designs.by_skin[i][m], s) - factor * at(own[i].by_skin, s));
+      of_skins.push_back(beyond(alike, std::move(move)));
       scatter += squares(of_skins.back());
     }
     if (!(scatter > 0)) continue;
-    const Estimate kept = share_of_moves(squares(moves) / scatter, n - 1);
+    const Estimate kept =
+        share_of_moves(squares(moves) / scatter, static_cast<double>(known.size()) - 1);
     for (std::size_t k = 0; k < known.size(); ++k) {
       designs.worth[known[k]][m] -= (1 - kept.value) * moves[k];
       std::vector<double>& by_skin = designs.by_skin[known[k]][m];

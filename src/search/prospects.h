@@ -41,10 +41,10 @@ struct SkinnedWorth {
   double worth = 0;
   std::vector<double> by_skin{};
 };
-// What members tell designs apart by beyond `own`, what these are worth as the finger is, is
-// shrunk by what it scatters from skin to skin; how far is not known, which is a skin more.
-// Eq. search.23
-void shrink_moves(const std::vector<SkinnedWorth>& own, MemberWorth& designs);
+// A member moves all designs by one difference, or in proportion to `own`, what they are worth as
+// the finger is; what it tells them apart by beyond that is shrunk by what it scatters from skin to
+// skin. How far is not known, which is a skin more. Eq. search.23
+void shrink_moves(const std::vector<SkinnedWorth>& own, bool in_proportion, MemberWorth& designs);
 
 struct Prospect {
   double p_best = 0;              // Eq. search.15

@@ -81,28 +81,41 @@ TEST(Prospects, AreOfWhatSkinsLeaveOpenToo) {
   EXPECT_EQ(prospects(d, {})[0].p_best, p[0].p_best);
 }
 
-// Members move three designs by 2, 3 and 4, the skins scatter by 0 to 10.
+// A member moves three designs by 2, 3 and 4, the first skin of it by the same differences.
 TEST(Prospects, MovesAreShrunkByWhatSkinsScatterThemBy) {
   const std::vector<SkinnedWorth> own = {{1, {0, 0.1}}, {2, {0, 0.1}}, {3, {0, 0.1}}};
   const auto shrunk = [&](double scatter) {
     MemberWorth d = worth_of({1}, {{3}, {5}, {7}});
-    d.by_skin = {{{scatter, 0.1}}, {{0, 0.1}}, {{-scatter, 0.1}}};
-    shrink_moves(own, d);
+    d.by_skin = {{{-scatter, 0.1}}, {{0, 0.1}}, {{scatter, 0.1}}};
+    shrink_moves(own, false, d);
     return d;
   };
   EXPECT_EQ(shrunk(0).worth, (Matrix{{3}, {5}, {7}}));
-  // Nothing but scatter, two degrees of freedom: the mean of k over (1 - k) is 1/3, its variance
+  // Nothing but scatter, two degrees of freedom: the mean of k over 1 - k is 1/3, its variance
   // 1/18.
   const MemberWorth some = shrunk(1e4);
   const double kept = 1.0 / 3;
   EXPECT_NEAR(some.worth[0][0], 1 + 3 - kept, 1e-4);
   EXPECT_NEAR(some.worth[1][0], 2 + 3, 1e-12);
-  EXPECT_NEAR(some.by_skin[0][0][0], 1e4 * std::sqrt(kept), 1);
+  EXPECT_NEAR(some.by_skin[2][0][0], 1e4 * std::sqrt(kept), 1);
   EXPECT_NEAR(some.by_skin[0][0][1], 0.1, 1e-12);  // of the design, not of the move
   EXPECT_NEAR(some.by_skin[2][0][2], std::sqrt(1.0 / 18), 1e-4);
   // Little scatter changes little.
   EXPECT_NEAR(shrunk(0.01).worth[0][0], 3, 3e-3);
   EXPECT_GT(shrunk(0.01).worth[0][0], 3);
+}
+
+// All patches flood: a tenth of every worth is left, and that is not shrunk.
+TEST(Prospects, MovesInProportionAreAlike) {
+  const std::vector<SkinnedWorth> own = {{0.1, {0.01, 0}}, {0.3, {0.03, 0}}};
+  MemberWorth d = worth_of({1}, {{0.01}, {0.03}});
+  d.by_skin = {{{0.001, 0.005}}, {{0.003, -0.005}}};
+  shrink_moves(own, true, d);
+  EXPECT_NEAR(d.worth[0][0], 0.01, 1e-15);
+  EXPECT_NEAR(d.worth[1][0], 0.03, 1e-15);
+  EXPECT_NEAR(d.by_skin[0][0][0], 0.001, 1e-15);
+  // One degree of freedom and no move but the skins': the mean of k over sqrt(1 - k).
+  EXPECT_NEAR(d.by_skin[0][0][1], 0.005 * std::sqrt(0.4), 1e-5);
 }
 
 TEST(Prospects, ALimitIsKeptWithTheWeightOfItsMembers) {
@@ -265,7 +278,7 @@ TEST(Prospects, AreTrueAsOftenAsTheySayWhereSkinsHideTheMoves) {
       d.by_skin.emplace_back(kMembers, error_moves(samples));
       d.kept.emplace_back();
     }
-    shrink_moves(own, d);
+    shrink_moves(own, false, d);
     const std::vector<Prospect> p = prospects(d, {});
     const std::size_t best = largest(truth), choice = chosen(p, 0.9);
     for (std::size_t i = 0; i < kDesigns; ++i) {
