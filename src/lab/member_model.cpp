@@ -34,7 +34,7 @@ std::vector<double> read_numbers(const std::string& text) {
 
 // More than `belief_fidelity` has: readings part designs by a few percent, which moves on two skins
 // scatter by.
-constexpr int kMemberSkins = 8;
+constexpr int kReadingSkins = 8;
 
 // The design by its own finger at its own level, by its own finger as members are run, and by each
 // member.
@@ -150,7 +150,7 @@ DesignRuns runs_of(const Design& design, const Belief& belief, int threads) {
   for (const BeliefMember& m : belief.members) out.weights.push_back(m.weight);
   std::vector<Scene> scenes = belief_scenes(belief, scene);
   scenes.push_back(scene);
-  Fidelity few = belief_fidelity(wanted, kMemberSkins);
+  Fidelity few = belief_fidelity(wanted, kReadingSkins);
   few.threads = 1;  // a member each
   out.members.resize(scenes.size());
   parallel_for(
@@ -171,7 +171,7 @@ DesignRuns runs_of(const Design& design, const Belief& belief, int threads) {
 std::size_t deviations_of(const Design& design, std::size_t members) {
   const int skins = fidelity_of(design).skins;
   return static_cast<std::size_t>(skins) +
-         members * static_cast<std::size_t>(std::min(skins, kMemberSkins));
+         members * static_cast<std::size_t>(std::min(skins, kReadingSkins));
 }
 std::string skins_of(const Design& design) {
   const Fidelity f = fidelity_of(design);

@@ -58,6 +58,7 @@ TaskAnswer by_skin(const StudyGoals& goals, const TaskAnswer& answer, std::size_
     }
   }
   out.worst += skin_move(answer.worst_samples, skin);
+  out.samples.clear();
   return out;
 }
 
