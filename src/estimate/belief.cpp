@@ -31,7 +31,8 @@ std::string absent_belief(const Scene& scene) {
 
 Fidelity belief_fidelity(const Fidelity& fidelity, int skins) {
   Fidelity few = step_fidelity(fidelity);
-  few.skins = few.equilibrium_skins = std::min(fidelity.skins, skins);
+  few.skins = std::min(fidelity.skins, skins);
+  few.equilibrium_skins = std::max(few.equilibrium_skins, few.skins);
   few.grid = std::min(few.grid, kFinestMemberGrid);
   few.contact_tolerance = std::max(few.contact_tolerance, kMemberTolerance);
   return few;

@@ -82,13 +82,14 @@ MemberWorth of_members(const MemberWorth& all, const std::vector<std::size_t>& m
 // Eq. search.23
 Estimate share_of_moves(double ratio, double freedom) {
   constexpr int kNodes = 200;
+  // The likelihood of 1 - k has its maximum at `most`; beyond `last` e^-40 of it is left.
+  const double most = std::min(1.0, 1 / ratio);
+  const double last = std::min(1.0, (20 + 80 / freedom) / ratio);
   double sum = 0, first = 0, second = 0;
   for (int i = 0; i < kNodes; ++i) {
-    const double noise = (i + 0.5) / kNodes;  // 1 - k
-    // Its largest logarithm is that at noise = 1/ratio or 1.
-    const double most = std::min(1.0, 1 / ratio);
-    const double log_likelihood = 0.5 * freedom * (std::log(noise / most) - ratio * (noise - most));
-    const double weight = std::exp(log_likelihood);
+    const double noise = last * (i + 0.5) / kNodes;
+    const double weight =
+        std::exp(0.5 * freedom * (std::log(noise / most) - ratio * (noise - most)));
     sum += weight;
     first += weight * (1 - noise);
     second += weight * square(1 - noise);

@@ -103,6 +103,7 @@ TEST(Prospects, MovesAreShrunkByWhatSkinsScatterThemBy) {
   // Little scatter changes little.
   EXPECT_NEAR(shrunk(0.01).worth[0][0], 3, 3e-3);
   EXPECT_GT(shrunk(0.01).worth[0][0], 3);
+  EXPECT_NEAR(shrunk(1e-9).worth[0][0], 3, 1e-12);
 }
 
 // All patches flood: a tenth of every worth is left, and that is not shrunk.
