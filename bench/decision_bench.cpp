@@ -2,16 +2,19 @@
 // the recommendation does not know; CSV on standard output, a truth a row, then the sums.
 //   decision_bench FILE FRONT MOST MEMBERS TRUTHS
 //                    the designs of the table FRONT, at most MOST; TRUTHS members, evenly over all,
-//                    are each left out of the belief and judged on other skins. MEMBERS 0: the
-//                    study FILE as it is, with its fingers, its own belief and its level; else at
-//                    level draft, so many drawn about its first finger, a fifth with the first
-//                    droplet step 50 nm, a fifth with air by emission
+//                    are each left out of the belief and judged on other skins, four times as many
+//                    and in four 3-D fields. MEMBERS 0: the study FILE as it is, with its fingers,
+//                    its own belief and its level; else at level draft, so many drawn about its
+//                    first finger, a fifth with the first droplet step 50 nm, a fifth with air by
+//                    emission. First the finger as it is: what skins and the field alone leave
+//                    open. What each design is said to be worth, and is, stands in a line below
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +23,7 @@
 #include "bench/drawn_belief.h"
 #include "bench/front_file.h"
 #include "estimate/belief.h"
-#include "forward/dry_areas.h"
+#include "forward/forward.h"
 #include "search/levels.h"
 #include "search/run.h"
 #include "search/task.h"
@@ -67,21 +70,28 @@ std::vector<TaskAnswer> confirmed(const StudyProblem& problem, const Design& des
   return out;
 }
 
-// A design where the truth is a member: every task at that member's finger and model, on skins that
-// nothing was chosen by.
-Score true_score(const StudyProblem& problem, const Design& design, std::size_t member) {
-  Fidelity fidelity = fidelity_level("draft");
-  fidelity.seed = static_cast<std::uint64_t>(problem.study().search.seed);
-  fidelity.first_skin = kFirstTruthSkin;
-  fidelity.skins = kTruthSkins;
-  fidelity.equilibrium_skins = kTruthEquilibria;
-  fidelity.field_skins = kTruthFields;
-  fidelity.control_skins = 0;
+// What a truth is judged by: the confirmation's level, on skins that nothing was chosen by.
+Fidelity truth_fidelity(const StudyProblem& problem) {
+  Fidelity out = stage_fidelity(problem, Stage::Confirm);
+  out.threads = 0;
+  out.first_skin = kFirstTruthSkin;
+  out.skins = kTruthSkins;
+  out.equilibrium_skins = kTruthEquilibria;
+  out.field_skins = kTruthFields;
+  return out;
+}
+
+// A design where the truth is a member, every task at that member's finger and model; without one,
+// as the finger is.
+Score true_score(const StudyProblem& problem, const Design& design,
+                 std::optional<std::size_t> member) {
+  const Fidelity fidelity = truth_fidelity(problem);
   std::vector<TaskAnswer> answers;
   for (const StudyTask& task : problem.tasks()) {
     const Design d = task_design(problem.study(), design, task);
-    const Scene scene = belief_scenes(*problem.belief(), scene_of(d))[member];
-    Response response = evaluate_resolved(scene, d.texture, fidelity, kDrySkins);
+    Scene scene = scene_of(d);
+    if (member) scene = belief_scenes(*problem.belief(), scene)[*member];
+    Response response = evaluate(scene, d.texture, fidelity);
     auto refused = complete(response, problem.goals(), scene, d, task.name, fidelity);
     answers.push_back(refused ? *std::move(refused)
                               : answer_of(problem.goals(), d, task.name, {std::move(response)}));
@@ -133,19 +143,35 @@ int planted_truths(const std::string& file, const std::string& front, std::size_
   sums.said = sums.so = sums.scatter = std::vector<double>(kBins, 0);
   fmt::print("truth,hypothesis,by belief,p(best),expected regret,regret,by the fit,its regret\n");
   truths = std::min(truths, all.weights.size());
+  const auto true_worth = [&](std::optional<std::size_t> member) {
+    MemberWorth truth{{1}, {}, {}};
+    for (const FinalDesign& f : designs) {
+      const Score score = true_score(problem, f.design, member);
+      truth.worth.push_back(
+          {score.ok ? pick_worth(rule, pick_candidate(problem, score), extent) : std::nan("")});
+      truth.kept.push_back({{problem.feasible(score, f.design)}});
+    }
+    return truth;
+  };
+  const auto print_worth = [&](const auto& said, const MemberWorth& truth) {
+    fmt::print("# said:");
+    for (std::size_t i = 0; i < designs.size(); ++i) fmt::print(" {:.4f}", said(i));
+    fmt::print("; is:");
+    for (const std::vector<double>& w : truth.worth) fmt::print(" {:.4f}", w[0]);
+    fmt::print("\n");
+    std::fflush(stdout);
+  };
+  const auto confirmed_worth = [&](std::size_t i) {
+    return pick_worth(rule, candidates[i], extent);
+  };
+  print_worth(confirmed_worth, true_worth({}));
   for (std::size_t k = 0; k < truths; ++k) {
     const std::size_t t = k * all.weights.size() / truths;
     MemberWorth others = all;
     others.weights[t] = 0;
     const std::vector<Prospect> found = prospects(others, problem.belief_risk());
     const std::size_t choice = chosen(found, study.risk.limits);
-    MemberWorth truth{{1}, {}, {}};
-    for (const FinalDesign& f : designs) {
-      const Score score = true_score(problem, f.design, t);
-      truth.worth.push_back(
-          {score.ok ? pick_worth(rule, pick_candidate(problem, score), extent) : std::nan("")});
-      truth.kept.push_back({{problem.feasible(score, f.design)}});
-    }
+    const MemberWorth truth = true_worth(t);
     const std::vector<Prospect> true_one = prospects(truth, {});
     for (std::size_t i = 0; i < designs.size(); ++i) {
       const std::size_t bin =
@@ -167,7 +193,7 @@ int planted_truths(const std::string& file, const std::string& front, std::size_
     fmt::print("{},{},{},{:.3f},{:.4f},{:.4f},{},{:.4f}\n", t + 1,
                problem.belief()->members[t].hypothesis, choice + 1, found[choice].p_best,
                found[choice].regret, true_one[choice].regret, by_fit + 1, true_one[by_fit].regret);
-    std::fflush(stdout);
+    print_worth([&](std::size_t i) { return all.worth[i][t]; }, truth);
   }
   const auto n = static_cast<double>(truths);
   fmt::print("# {} designs, the best at each member is worth {:.4f} on average\n", designs.size(),

@@ -15,7 +15,11 @@
 namespace papilla::calibrate {
 namespace {
 
-constexpr int kSaid = 10;  // evaluations between two notes
+// At most.
+int evaluations_of_one(const Calibration& c) {
+  const int an_iteration = 2 * static_cast<int>(c.parameters.size()) + 1;
+  return c.belief->starts * c.belief->iterations * an_iteration + c.belief->samples;
+}
 
 class BeliefMaker {
  public:
@@ -70,14 +74,13 @@ class BeliefMaker {
       options.bands = residuals_.bands();
       options.groups = groups();
       if (!own) options.variance_factor = out_.hypotheses.front().posterior.variance_factor;
-      const int an_iteration = 2 * static_cast<int>(calibration.parameters.size()) + 1,
-                most = settings_.starts * settings_.iterations * an_iteration + settings_.samples;
+      const int most = evaluations_of_one(calibration);
       const auto begin = std::chrono::steady_clock::now();
       int said = 0;
       const auto answers = [&](std::span<const double> p, std::span<double> r) {
         const std::vector<Estimate> model = residuals_.model(calibration, p);
         Watch::look();
-        if (++said % kSaid == 0) {
+        if (++said % kEvaluationsANote == 0) {
           const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
           note(fmt::format("{} ({} of {}): evaluation {}; {} at most to its last", hypothesis.name,
                            out_.hypotheses.size(), 1 + calibration_.hypotheses.size(), said,
@@ -108,7 +111,11 @@ class BeliefMaker {
     std::vector<double> start;
     for (const CalibrationParameter& p : calibration.parameters) start.push_back(p.fit.start);
     residuals_.correct(calibration, start);
-    residuals_.follow(calibration, start);
+    const int all = 2 * static_cast<int>(start.size());
+    if (const double each = residuals_.seconds_a_factor(); each > 0)
+      note(fmt::format("the correction at its start: {} evaluations, {}", all,
+                       duration(each * all)));
+    residuals_.follow(calibration, start, [](int) { Watch::look(); });
     const std::vector<Estimate> model = residuals_.model(calibration, start);
     for (std::size_t i = 0; i < model.size(); ++i) residuals_.rows()[i].sampling_sd = model[i].se;
   }
@@ -236,6 +243,11 @@ class BeliefMaker {
 };
 
 }  // namespace
+
+int belief_evaluations(const Calibration& calibration) {
+  if (!calibration.belief) return 0;
+  return evaluations_of_one(calibration) * (1 + static_cast<int>(calibration.hypotheses.size()));
+}
 
 BeliefFit make_belief(const Calibration& calibration, Residuals& residuals,
                       const LeastSquaresFit& fit, const Finger& finger,

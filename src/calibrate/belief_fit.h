@@ -14,6 +14,8 @@
 
 namespace papilla::calibrate {
 
+constexpr int kEvaluationsANote = 10;  // how often a fit says how far it is
+
 struct HypothesisFit {
   std::string name;
   Posterior posterior;
@@ -34,6 +36,9 @@ struct BeliefFit {
   // How far members and samples agree in every row and parameter.
   double largest_mean = 0, least_spread = 1, largest_spread = 1;
 };
+
+// Evaluations of the model that `make_belief` takes at most; corrections are not among them.
+int belief_evaluations(const Calibration& calibration);
 
 // Every hypothesis is fitted from some starts and sampled by itself; weights by what each predicts
 // of groups of rows left out. fit, finger, trials: of the finger's own model options. The rows of

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "base/watch.h"
@@ -99,47 +98,65 @@ class Fit {
     if (options_.note) options_.note(text);
   }
 
-  // Calls `evaluate` and keeps its time, unless it found its answers in the file.
-  template <class Evaluate>
-  auto timed(Evaluate&& evaluate) {
-    const int made = residuals_.kept().made();
-    const auto begin = std::chrono::steady_clock::now();
-    auto out = evaluate();
-    if (residuals_.kept().made() > made)
-      seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return out;
-  }
-
   // The rows of the finger that the fit starts from; their sampling error stays in the weights.
   void start() {
     std::vector<double> values;
     for (const FitParameter& p : parameters_) values.push_back(p.start);
     out_.start = with_parameters(calibration_, values);
-    residuals_.correct(calibration_, values);
-    residuals_.follow(calibration_, values);
     std::vector<FitRow>& rows = residuals_.rows();
-    const std::vector<Estimate> before =
-        timed([&] { return residuals_.model(calibration_, values); });
+    note(fmt::format("{} residuals, {} parameters; the first evaluation tells the price",
+                     rows.size(), parameters_.size()));
+    residuals_.correct(calibration_, values);
+    const std::vector<Estimate> before = residuals_.model(calibration_, values);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       rows[i].before = before[i].value;
       rows[i].sampling_sd = before[i].se;
     }
+    state_price();
+    follow(values);
     std::vector<double> r(rows.size());
     residuals_.residuals(calibration_, values, r);
     out_.chi2_before = sum_of_squares(r);
-    note(fmt::format("{} residuals, {} parameters, chi2 {:.4g} at the start", rows.size(),
-                     parameters_.size(), out_.chi2_before));
-    if (seconds_ > 0) {
-      const double most = seconds_ * an_iteration() * calibration_.iterations;
-      note(fmt::format(
-          "price: {} an evaluation, {} of them an iteration; {} iterations and {} at most, again "
-          "(up to {} times) where the finger moves far{}. Ctrl-C keeps what is done",
-          duration(seconds_), an_iteration(), calibration_.iterations, duration(most),
-          kMostRounds - 1,
-          calibration_.data.empty()
-              ? ""
-              : fmt::format(", each after {} more at the level of the checks", an_iteration())));
+    note(fmt::format("chi2 {:.4g} at the start", out_.chi2_before));
+  }
+
+  // At most, as far as the answers of the model are not kept from before.
+  void state_price() const {
+    const double each = residuals_.seconds_a_model(), corrected = residuals_.seconds_a_factor();
+    if (!(each > 0)) return;
+    const double rounds = corrections() * corrected,
+                 fit = each * an_iteration() * calibration_.iterations;
+    std::string text = fmt::format("price: {} an evaluation", duration(each));
+    if (rounds > 0)
+      text += fmt::format(", {} with the level of the checks; {} of those first, {}",
+                          duration(corrected), corrections(), duration(rounds));
+    text += fmt::format("; the fit {} at most ({} iterations of {})", duration(fit),
+                        calibration_.iterations, an_iteration());
+    double all = rounds + fit;
+    if (calibration_.belief) {
+      const double belief = belief_evaluations(calibration_) * each +
+                            (1.0 + static_cast<double>(calibration_.hypotheses.size())) * rounds;
+      text += fmt::format("; the belief {} at most", duration(belief));
+      all += belief;
     }
+    note(text +
+         fmt::format("; all {} at most, and more (up to {} times) where the finger moves far. "
+                     "Ctrl-C keeps what is done",
+                     duration(all), kMostRounds));
+  }
+
+  // Evaluations of both levels that the correction and its slopes take, at one place.
+  int corrections() const { return calibration_.data.empty() ? 0 : an_iteration(); }
+
+  // Says how far it is.
+  void follow(const std::vector<double>& values) {
+    const int all = 2 * static_cast<int>(parameters_.size());
+    residuals_.follow(calibration_, values, [&](int done) {
+      Watch::look();
+      if (done % kEvaluationsANote != 0 && done != all) return;
+      note(fmt::format("correction: {} of {} evaluations, {} left", done, all,
+                       duration(residuals_.seconds_a_factor() * (all - done))));
+    });
   }
 
   int an_iteration() const { return 2 * static_cast<int>(parameters_.size()) + 1; }
@@ -148,14 +165,15 @@ class Fit {
   void descend() {
     const std::vector<RowBand> bands = residuals_.bands();
     const auto misses = [&](std::span<const double> p, std::span<double> r) {
-      const bool ok = timed([&] { return residuals_.answers(calibration_, p, r); });
+      const bool ok = residuals_.answers(calibration_, p, r);
       Watch::look();
       if (ok) trials_.push_back({{p.begin(), p.end()}, {r.begin(), r.end()}});
       take_bands_off(r, bands);
-      if (++evaluations_ % 10 == 0) {
+      if (++evaluations_ % kEvaluationsANote == 0) {
         const int left = std::max(0, an_iteration() * calibration_.iterations - in_round_);
         note(fmt::format("evaluation {}: chi2 {:.4g}; {} at most to the last iteration",
-                         evaluations_, sum_of_squares(r), duration(seconds_ * left)));
+                         evaluations_, sum_of_squares(r),
+                         duration(residuals_.seconds_a_model() * left)));
       }
       ++in_round_;
       return ok;
@@ -167,14 +185,14 @@ class Fit {
       out_.fit = least_squares(parameters_, residuals_.size(), misses, options);
       const std::vector<double> found = out_.fit.values();
       if (residuals_.correct(calibration_, found) < kSmallCorrection) break;
-      residuals_.follow(calibration_, found);
+      follow(found);
       note("frictions of the fine level have moved: fitted again from here");
       for (std::size_t i = 0; i < found.size(); ++i) parameters_[i].start = found[i];
     }
     if (calibration_.data.empty() || !calibration_.belief) return;
     // Samples go farther than fits: by the correction here and how it moves from here.
     residuals_.correct(calibration_, out_.fit.values());
-    residuals_.follow(calibration_, out_.fit.values());
+    follow(out_.fit.values());
     trials_.clear();  // of other corrections
   }
 
@@ -203,7 +221,6 @@ class Fit {
   CalibrationResult out_;
   std::vector<PosteriorTrial> trials_;
   int evaluations_ = 0, in_round_ = 0;
-  double seconds_ = 0;  // of an evaluation
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -30,6 +31,21 @@ double middle(const FitRow& row) {
 }
 
 double deviation(const FitRow& row) { return std::hypot(row.sd, row.sampling_sd); }
+
+// Tells what its scope has taken [s].
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() {
+    seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
 
 std::string as_text(const SkinSampling& s) {
   return fmt::format("{} {} {} {}", s.level, s.skins, s.first_skin, s.grid);
@@ -78,6 +94,7 @@ std::vector<Estimate> Residuals::model(const Calibration& from, std::span<const 
   std::vector<Estimate> out =
       kept_.get("targets " + as_text(calibration_.sampling) + write_toml(to_table(finger)),
                 targets_.size(), [&] {
+                  const Stopwatch watch(target_seconds_);
                   FingerModel finger_model(finger, finger.calibrated_for.preset, threads_,
                                            calibration_.sampling);
                   std::vector<Estimate> answers;
@@ -153,16 +170,20 @@ double Residuals::correct(const Calibration& from, std::span<const double> value
   return largest;
 }
 
-void Residuals::follow(const Calibration& from, std::span<const double> values) {
+void Residuals::follow(const Calibration& from, std::span<const double> values,
+                       const std::function<void(int)>& done) {
   slopes_.clear();
   if (calibration_.data.empty()) return;
   const std::vector<FitParameter> parameters = fit_parameters(from);
   const FitCoordinates coordinates(parameters);
+  int evaluated = 0;
   for (std::size_t k = 0; k < values.size(); ++k) {
     const auto at = [&](double x) {
       std::vector<double> moved(values.begin(), values.end());
       moved[k] = coordinates.from(k, x);
-      return std::pair(coordinates.to(k, moved[k]), factors(with_parameters(from, moved)));
+      const std::pair out(coordinates.to(k, moved[k]), factors(with_parameters(from, moved)));
+      if (done) done(++evaluated);
+      return out;
     };
     const double here = coordinates.to(k, values[k]);
     const auto [low, below] = at(here - kFollowedStep);
@@ -220,6 +241,7 @@ std::vector<Residuals::Friction> Residuals::frictions(const Finger& finger,
   const std::string question =
       fmt::format("frictions {} {} ", corrected, as_text(sampling)) + write_toml(to_table(finger));
   const std::vector<Estimate> both = kept_.get(question, 2 * calibration_.data.size(), [&] {
+    const Stopwatch watch(corrected ? good_seconds_ : fast_seconds_);
     std::vector<Estimate> flat;
     for (const Friction& f : evaluated(finger, sampling, corrected)) {
       flat.push_back(f.off);

@@ -1,6 +1,7 @@
 // The model beside published numbers and measured friction: the rows of a fit and their residuals.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -53,9 +54,13 @@ class Residuals {
   // the checks on the same skins. Returns the largest change of a friction there in standard
   // deviations of its datum. Eq. calibration.6
   double correct(const Calibration& from, std::span<const double> values);
-  // How that factor moves with the parameters: two evaluations of both levels for each.
-  // Eq. calibration.6
-  void follow(const Calibration& from, std::span<const double> values);
+  // How that factor moves with the parameters: two evaluations of both levels for each, of which
+  // `done` hears. Eq. calibration.6
+  void follow(const Calibration& from, std::span<const double> values,
+              const std::function<void(int)>& done = {});
+  // What answers of the model cost when they were last computed [s]; 0: all were kept.
+  double seconds_a_model() const { return target_seconds_ + fast_seconds_; }
+  double seconds_a_factor() const { return fast_seconds_ + good_seconds_; }
 
   // Distance from the band in standard deviations: the data's and the model's sampling error,
   // which stays what it was at the start. false: the model has no answer. Eq. calibration.5
@@ -97,6 +102,7 @@ class Residuals {
   std::vector<double> corrected_at_;         // coordinates of the fit; empty: never corrected
   std::vector<std::vector<Factor>> slopes_;  // [parameter][datum] per unit of its coordinate
   std::vector<FitRow> rows_;
+  double target_seconds_ = 0, fast_seconds_ = 0, good_seconds_ = 0;
 };
 
 }  // namespace papilla::calibrate

@@ -18,7 +18,7 @@ namespace {
 
 struct RankCommand {
   std::vector<std::string> files, overrides;
-  std::string by, weights, states, out;
+  std::string base, by, weights, states, out;
   int max_skins = 96, jobs = 0;
   bool json = false, parameters = false, no_parameters = false, any_conditions = false;
 };
@@ -39,6 +39,25 @@ std::vector<double> parse_weights(const std::string& text) {
   std::vector<double> out;
   for (const std::string& word : split(text, ',')) out.push_back(parse_si(word, ""));
   return out;
+}
+
+bool is_design(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".toml";
+}
+
+// A region by its file: a design, or a scan that becomes the texture of the base.
+Design read_region(const std::string& file, const RankCommand& command) {
+  if (is_design(file)) return read_design(file, command.overrides);
+  if (command.base.empty()) {
+    throw InputError("\"" + file +
+                     "\" is no design (.toml); scans are put into one: --base COMMON.toml, with "
+                     "the coating, the finger and its air");
+  }
+  std::vector<std::string> overrides{
+      "texture.type=measured",
+      "texture.file=" + std::filesystem::absolute(file).lexically_normal().string()};
+  overrides.insert(overrides.end(), command.overrides.begin(), command.overrides.end());
+  return read_design(command.base, overrides);
 }
 
 // File stems, of the first region; with the folder where stems repeat.
@@ -67,7 +86,7 @@ int run(const Context& context, const RankCommand& command) {
                          "\": A.toml+B.toml joins the regions of one design, and a name is missing "
                          "beside a +");
       }
-      mistakes.of([&] { regions.push_back(read_design(region, command.overrides)); });
+      mistakes.of([&] { regions.push_back(read_region(region, command)); });
       seen.back().push_back(std::filesystem::weakly_canonical(region).string());
     }
     if (std::count(seen.begin(), seen.end(), seen.back()) > 1)
@@ -125,8 +144,12 @@ void add_rank(Command app, Context& context) {
   auto options = std::make_shared<RankCommand>();
   command
       .add_option("designs", options->files,
-                  "DESIGN.toml of each candidate; A.toml+B.toml: regions of one")
+                  "DESIGN.toml of each candidate, or with --base a scan; A+B: regions of one")
       .required();
+  command
+      .add_option("--base", options->base,
+                  "DESIGN.toml that candidates which are scans are put into, as its texture")
+      .type_name("FILE");
   command
       .add_option("--by", options->by,
                   "Criteria, e.g. friction:low,variation(modulation):low; default modulation:high, "

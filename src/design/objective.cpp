@@ -107,6 +107,27 @@ void read_objective(StudyFile& file) {
   if (!risk.empty()) file.study.objective.risk = risk.front();
 }
 
+namespace {
+
+// A limit on a dimension, "max_depth": what the search may change says how far. Whether it is one.
+bool refuse_dimension(StudyFile& file, const Node& limit, const std::vector<std::string>& known) {
+  if (!nearest_name(limit.key, known).empty()) return false;
+  std::string name = limit.key;
+  for (const char* end : {"max_", "min_", "maximum_", "minimum_"}) {
+    if (name.starts_with(end)) name.erase(0, std::string_view(end).size());
+  }
+  const std::string path = file.numbers.named(name);
+  if (path.empty()) return false;
+  file.document.problem(
+      limit.key_place, "constraints",
+      fmt::format("`{}`: the search changes a dimension between its ends alone; say them in "
+                  "[design_space]: \"{}\" = [low, high]",
+                  limit.key, path));
+  return true;
+}
+
+}  // namespace
+
 void read_constraints(StudyFile& file) {
   const Node* section = file.section("constraints");
   if (!section) return;
@@ -115,7 +136,10 @@ void read_constraints(StudyFile& file) {
   for (const Node& child : section->children) {
     const bool is_metric = child.key.find('(') != std::string::npos;
     if (is_metric) keys.push_back(child.key);
-    if (std::find(keys.begin(), keys.end(), child.key) == keys.end()) continue;  // `only` says so
+    if (std::find(keys.begin(), keys.end(), child.key) == keys.end()) {
+      if (refuse_dimension(file, child, keys)) keys.push_back(child.key);
+      continue;  // `only` says of the others that they are unknown
+    }
     try {
       const ConstraintKind kind = read_constraint_kind(child.key);
       double limit = 0;

@@ -60,6 +60,13 @@ bool KnownNumbers::has(const std::string& path) const {
                      [&](const NumberField& known) { return known.path == path; });
 }
 
+std::string KnownNumbers::named(const std::string& name) const {
+  for (const NumberField& known : numbers_) {
+    if (known.path == name || known.path.ends_with("." + name)) return known.path;
+  }
+  return {};
+}
+
 void KnownNumbers::add(const std::vector<NumberField>& more) {
   for (const NumberField& field : more) {
     if (std::none_of(numbers_.begin(), numbers_.end(),

@@ -38,6 +38,8 @@ class KnownNumbers {
   KnownNumbers(Document& document, Design& design);
 
   bool has(const std::string& path) const;
+  // The path of the number that is so called, whole or by its last part; empty: none is.
+  std::string named(const std::string& name) const;
   // Numbers of another kind of texture, by paths that are not known yet.
   void add(const std::vector<NumberField>& more);
   // Null, and a mistake at the node, where no number has this path.

@@ -151,8 +151,12 @@ std::string lab_told_json(const Lab& lab, const Told& told) {
 
 std::string lab_state_json(Lab& lab) {
   LabJson plans = LabJson::array(), told = LabJson::array(), decisions = LabJson::array();
+  std::string why;  // the newest plan
   for (const JournalEntry& e : lab.entries()) {
-    if (e.plan) plans.push_back(plan_json(lab, *e.plan));
+    if (e.plan) {
+      plans.push_back(plan_json(lab, *e.plan));
+      why = e.plan->experiments.empty() ? "" : lab_plan_reason(lab, *e.plan);
+    }
     if (e.tell) told.push_back(tell_json(lab, *e.tell));
     if (e.decision) decisions.push_back(decision_record_json(*e.decision));
   }
@@ -160,6 +164,7 @@ std::string lab_state_json(Lab& lab) {
                  {"source", lab.file().source},
                  {"standing", standing_json(lab)},
                  {"plans", std::move(plans)},
+                 {"why", why},
                  {"told", std::move(told)},
                  {"decisions", std::move(decisions)}});
 }

@@ -165,27 +165,6 @@ std::string plan_table(const Lab& lab, const PlanRecord& plan) {
   return out;
 }
 
-std::string why_text(const Standing& s, const PlanRecord& plan) {
-  switch (plan.aim) {
-    case Aim::Decision:
-      return fmt::format(
-          "Why these: of all that can be measured they lower the expected regret of the choice "
-          "most "
-          "for the time they take, from {} to {}; with probability {} another design is chosen "
-          "after them.",
-          regret_text(s, plan.regret_now), regret_text(s, plan.regret_after),
-          lab_percent(plan.p_change));
-    case Aim::Hypotheses:
-      return "Why these: the hypotheses of the model differ most there for the scatter of a "
-             "reading "
-             "(T-optimal). They weigh now: " +
-             hypotheses_text(s.ensemble, s.p_hypothesis) + ".";
-    case Aim::Parameters:
-      return "Why these: they shrink most of all that the members of belief differ in (D-optimal).";
-  }
-  return {};
-}
-
 std::string stop_text(const Standing& s, const PlanRecord& plan) {
   if (plan.aim != Aim::Decision) return {};
   if (plan.stop)
@@ -225,11 +204,31 @@ std::string lab_standing_text(Lab& lab) {
   return out + members_text(s) + discrepancy_text(s) + gauge_text(lab, s);
 }
 
+std::string lab_plan_reason(Lab& lab, const PlanRecord& plan) {
+  const Standing& s = lab.standing();
+  switch (plan.aim) {
+    case Aim::Decision:
+      return fmt::format(
+          "Why these: of all that can be measured they lower the expected regret of the choice "
+          "most for the time they take, from {} to {}; with probability {} another design is "
+          "chosen after them.",
+          regret_text(s, plan.regret_now), regret_text(s, plan.regret_after),
+          lab_percent(plan.p_change));
+    case Aim::Hypotheses:
+      return "Why these: the hypotheses of the model differ most there for the scatter of a "
+             "reading (T-optimal). They weigh now: " +
+             hypotheses_text(s.ensemble, s.p_hypothesis) + ".";
+    case Aim::Parameters:
+      return "Why these: they shrink most of all that the members of belief differ in (D-optimal).";
+  }
+  return {};
+}
+
 std::string lab_plan_text(Lab& lab, const PlanRecord& plan) {
   const Standing& s = lab.standing();
   std::string out = "# What to measure next\n\n" + lab_standing_text(lab) + "\n";
   if (plan.experiments.empty()) return out + "Nothing that can be measured tells anything.\n";
-  out += plan_table(lab, plan) + "\n" + why_text(s, plan) +
+  out += plan_table(lab, plan) + "\n" + lab_plan_reason(lab, plan) +
          fmt::format(" It takes {}.\n", hours(plan.seconds));
   if (plan.aim == Aim::Decision) out += outcomes_text(lab, plan);
   return out + stop_text(s, plan);

@@ -12,6 +12,8 @@ namespace papilla::report {
 // Which design, how surely, how much it is better; what the hypotheses weigh; what no member
 // explains; how many readings, and whether a new fit is due.
 std::string lab_standing_text(Lab& lab);
+// Why these experiments and no others.
+std::string lab_plan_reason(Lab& lab, const PlanRecord& plan);
 // The batch as a table, why, what each outcome would change, what it takes, when to stop.
 std::string lab_plan_text(Lab& lab, const PlanRecord& plan);
 // What came of a file: readings, notes, the decision before and after.

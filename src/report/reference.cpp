@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "calibrate/calibration_file.h"
 #include "cases/contact_statistics.h"
 #include "cases/drive.h"
 #include "cases/persson.h"
@@ -74,6 +75,10 @@ const char* about(const std::string& section) {
     return "A list of designs for `papilla wafer`, LIST.toml; of a study or of results every key "
            "by "
            "`--set wafer.repeats=5`.";
+  }
+  if (section == "calibration") {
+    return "CALIBRATION.toml of `papilla calibrate`: what a finger is fitted to, what may change "
+           "and what is known of it before.";
   }
   if (section == "export") {
     return "The files of `papilla export`, by the names that `--format` takes. Without it: those "
@@ -221,6 +226,40 @@ std::vector<Part> wafer_reference() {
           {"design: a list, [[design]]", field_rows(WaferDesign{}, "design")}};
 }
 
+std::vector<Part> calibration_reference() {
+  const Calibration standard;
+  std::vector<FieldRow> head{
+      key("schema_version", "of this file: 1"),
+      key("title", "a text"),
+      key("finger", "the file where the fit starts, e.g. \"fingers/reference.toml\"; required"),
+      key("data",
+          "a table of measured frictions, a CSV with a line a measurement: design (a file), "
+          "relative_humidity, amplitude_V, frequency_Hz, load_N, F_off_N, F_off_sd_N, F_on_N, "
+          "F_on_sd_N; forces of the whole finger [N], sd: one standard deviation"),
+      key("fit", "published claims that are fitted, e.g. [\"M1\", \"C_gap\"]; this or `data`"),
+      key("hold_out", "claims that are judged with the fitted finger alone"),
+      key("iterations",
+          fmt::format("of the fit; 0 leaves the finger as it is; {}", standard.iterations)),
+      key("profiles", "whether intervals are walked along the misfit; false: by the slopes"),
+      key("sampling",
+          "where the fit is computed: level, skins, first_skin, grid; frictions are corrected to "
+          "the level of `check`"),
+      key("check", "the same, of the judgement and of the correction"),
+      key("parameters.\"PATH\" = { low = ..., high = ..., prior = ..., factor = ... }",
+          "the fit may change this number of the finger (`papilla describe finger`), or "
+          "\"water.scale\", which multiplies all water volumes; known before within a factor"),
+      key("parameters.\"PATH\" = { low = ..., high = ..., prior = ..., sd = ... }",
+          "the same, known within this standard deviation; without a prior: the bounds alone"),
+      key("parameters.\"PATH\".start", "where the fit begins; the finger's own where left out"),
+      key("hypothesis",
+          "a list [[hypothesis]] beside [belief]: name, set = { \"PATH\" = value } (choices of "
+          "the model, e.g. \"model.air_limit\" = \"emission\"), start = { \"PATH\" = value }"),
+  };
+  return {{"", head, true},
+          {"belief: what the data leave open is carried by every answer",
+           field_rows(BeliefSettings{}, "belief")}};
+}
+
 std::vector<Part> parts_of(const std::string& section);
 
 // "texture.depth" for "depth": the first key that ends so; empty: none does.
@@ -253,6 +292,7 @@ std::vector<Part> parts_of(const std::string& section) {
   if (section == "study") return study_reference();
   if (section == "export") return export_reference();
   if (section == "wafer") return wafer_reference();
+  if (section == "calibration") return calibration_reference();
   if (auto parts = study_section(section); !parts.empty()) return parts;
   std::vector<std::string> known = reference_sections();
   for (const char* name : kStudySections) known.emplace_back(name);
@@ -289,7 +329,7 @@ std::vector<Part> parts_of_key(const std::string& key) {
 std::vector<std::string> reference_sections() {
   return {"texture", "surface",    "view",     "finger", "counterface", "environment",
           "drive",   "model",      "accuracy", "study",  "metrics",     "persson",
-          "circuit", "statistics", "export",   "wafer"};
+          "circuit", "statistics", "export",   "wafer",  "calibration"};
 }
 
 std::string reference_section(const std::string& section, ReferenceFormat format) {

@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <mutex>
@@ -103,69 +104,93 @@ class TimedStream final : public httplib::Stream {
   bool admitted_ = false, broken_ = false;
 };
 
-// Connections whose request has not been let in: nobody knows yet whether one ever comes. Where
-// there are too many, the one that waits longest makes room.
-class Strangers {
+// Who is inside and who of them is a stranger: nobody knows yet whether a request ever comes. Where
+// more are here than threads are, the stranger that waits longest makes room. Those who were ended
+// count no more, though their threads have not noticed yet: on a loaded machine that takes a while,
+// in which the next ones wait for a thread in place of being closed unread.
+class Visitors {
  public:
-  void enter(int socket) {
+  explicit Visitors(int threads) : threads_(static_cast<std::size_t>(threads)) {}
+
+  // One more waits for a thread; false: too many do.
+  bool come() {
     const std::lock_guard lock(mutex_);
-    since_.push_back(socket);
-  }
-  // Whether it was still there: not let in since, nor ended.
-  bool leave(int socket) {
-    const std::lock_guard lock(mutex_);
-    return std::erase(since_, socket) > 0;
-  }
-  // Its thread is free in a moment; false: there is none.
-  bool end_oldest() {
-    const std::lock_guard lock(mutex_);
-    if (since_.empty()) return false;
-    ::shutdown(since_.front(), SHUT_RDWR);
-    since_.erase(since_.begin());
+    if (staying() >= threads_ + kMostWaiting) return false;
+    ++here_;
+    make_room();
     return true;
+  }
+  // It has a thread, and its next request is not let in yet.
+  void wait_at_door(int socket) {
+    const std::lock_guard lock(mutex_);
+    strangers_.push_back(socket);
+    make_room();
+  }
+  // Its request was let in, or it stops waiting for one.
+  void pass(int socket) {
+    const std::lock_guard lock(mutex_);
+    std::erase(strangers_, socket);
+  }
+  bool was_ended(int socket) const {
+    const std::lock_guard lock(mutex_);
+    return std::find(ended_.begin(), ended_.end(), socket) != ended_.end();
+  }
+  // Its socket is closed next and its thread is free.
+  void go(int socket) {
+    const std::lock_guard lock(mutex_);
+    --here_;
+    std::erase(strangers_, socket);
+    std::erase(ended_, socket);
   }
 
  private:
-  std::mutex mutex_;
-  std::vector<int> since_;  // sockets, the oldest first
+  static constexpr std::size_t kMostWaiting = 256;  // as many as the system lets knock
+
+  std::size_t staying() const { return here_ - ended_.size(); }
+  void make_room() {
+    while (staying() > threads_ && !strangers_.empty()) {
+      ::shutdown(strangers_.front(), SHUT_RDWR);
+      ended_.push_back(strangers_.front());
+      strangers_.erase(strangers_.begin());
+    }
+  }
+
+  std::size_t threads_;
+  mutable std::mutex mutex_;
+  std::size_t here_ = 0;
+  std::vector<int> strangers_;  // sockets, the oldest first
+  std::vector<int> ended_;      // sockets of threads that have not noticed yet
 };
 
 thread_local bool turned_away = false;
 thread_local TimedStream* at_the_door = nullptr;  // of this thread
 
-// A thread each for so many connections. For one more a stranger is sent away, or it is closed
-// unread.
+// A thread each for so many connections.
 class BoundedQueue final : public httplib::TaskQueue {
  public:
-  BoundedQueue(int most, Strangers& strangers)
-      : most_(most), strangers_(strangers), pool_(static_cast<std::size_t>(most)) {}
+  BoundedQueue(int most, Visitors& visitors)
+      : visitors_(visitors), pool_(static_cast<std::size_t>(most)) {}
 
   void enqueue(std::function<void()> work) override {
-    if (++running_ > most_ && !strangers_.end_oldest()) {
-      turned_away = true;
-      work();
-      turned_away = false;
-      --running_;
+    if (visitors_.come()) {
+      pool_.enqueue(std::move(work));
       return;
     }
-    pool_.enqueue([this, work = std::move(work)] {
-      work();
-      --running_;
-    });
+    turned_away = true;
+    work();
+    turned_away = false;
   }
   void shutdown() override { pool_.shutdown(); }
 
  private:
-  int most_;
-  Strangers& strangers_;
-  std::atomic<int> running_{0};
+  Visitors& visitors_;
   httplib::ThreadPool pool_;
 };
 
 class BoundedServer final : public httplib::Server {
  public:
-  explicit BoundedServer(const Limits& limits) : limits_(limits) {
-    new_task_queue = [this] { return new BoundedQueue(limits_.connections, strangers_); };
+  explicit BoundedServer(const Limits& limits) : limits_(limits), visitors_(limits.connections) {
+    new_task_queue = [this] { return new BoundedQueue(limits_.connections, visitors_); };
     set_payload_max_length(limits.body);
     set_tcp_nodelay(true);
     // The library's own option would let two programs have one port, and each get some of the
@@ -181,7 +206,7 @@ class BoundedServer final : public httplib::Server {
   // The request that this thread reads was let in.
   void admit() {
     at_the_door->admit();
-    strangers_.leave(at_the_door->socket());
+    visitors_.pass(at_the_door->socket());
   }
   // The request that this thread reads is refused with what it carries; so is what follows it.
   static void refuse_rest() { at_the_door->leave_rest(); }
@@ -190,24 +215,23 @@ class BoundedServer final : public httplib::Server {
   bool process_and_close_socket(socket_t socket) override {
     constexpr int kRequests = 10000;  // of one connection
     TimedStream stream(socket, limits_.request);
-    bool closed = turned_away;
     at_the_door = &stream;
+    bool closed = turned_away;
     for (int left = kRequests; left > 0 && !closed; --left) {
-      strangers_.enter(socket);
+      visitors_.wait_at_door(socket);
       const bool asks = stream.next(limits_.idle, [this] { return svr_sock_ != INVALID_SOCKET; });
       const bool on = asks && process_request(stream, left == 1, closed, nullptr);
-      // Who was ended does not come back: ended twice, it would make room for two and free one
-      // thread.
-      const bool ended = !strangers_.leave(socket) && !stream.admitted();
-      if (!on || ended || stream.broken()) break;
+      visitors_.pass(socket);
+      if (!on || stream.broken() || visitors_.was_ended(socket)) break;
     }
+    if (!turned_away) visitors_.go(socket);
     ::shutdown(socket, SHUT_RDWR);
     ::close(socket);
     return true;
   }
 
   Limits limits_;
-  Strangers strangers_;
+  Visitors visitors_;
 };
 
 // Nothing from another place, no frame around the page. A report is a file that anybody may have

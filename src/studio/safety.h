@@ -13,10 +13,10 @@ namespace papilla::studio {
 struct Limits {
   std::size_t body = std::size_t{64} << 20;  // of an upload [bytes]
   std::size_t text = std::size_t{1} << 20;   // of any other request
-  int connections = 64;                      // at a time; the next one is closed
-  int listeners = 12;                        // of them, pages that wait for events
-  std::chrono::seconds request{10};          // from its first byte to its last
-  std::chrono::seconds idle{15};             // of a connection between two requests
+  int connections = 64;  // at a time; for one more the one that asks nothing longest is closed
+  int listeners = 12;    // of them, pages that wait for events
+  std::chrono::seconds request{10};  // from its first byte to its last
+  std::chrono::seconds idle{15};     // of a connection between two requests
 };
 
 // 32 hexadecimal digits that nobody guesses, from the system.

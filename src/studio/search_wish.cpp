@@ -246,9 +246,9 @@ Json proposed_wish(const Study& study, const std::string& kept) {
     known.push_back(
         {{"name", kind.name}, {"unit", kind.unit}, {"doc", kind.doc}, {"at_least", kind.at_least}});
   for (const MetricInfo& metric : metric_list()) {
-    const std::string name =
-        metric.takes_modulation ? metric.name + "(modulation = 0.3)" : metric.name;
-    if (!metric.appearance) metrics.push_back({{"name", name}, {"doc", metric.doc}});
+    if (!metric.appearance)
+      metrics.push_back(
+          {{"name", metric.name}, {"doc", metric.doc}, {"at_modulation", metric.takes_modulation}});
   }
   for (const Variable& v : study.variables) {
     if (!v.is_kind()) continue;

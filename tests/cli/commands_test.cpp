@@ -230,6 +230,44 @@ TEST(Rank, RefusesADesignAgainstItselfAndARegionWithoutAName) {
   EXPECT_NE(nameless.err.find("a3h600.toml+"), std::string::npos) << nameless.err;
 }
 
+// As a design that names the scan, a file for each.
+TEST(Rank, PutsScansIntoOneDesign) {
+  const Workplace place;
+  for (const char* depth : {"350", "600"})
+    ASSERT_EQ(place
+                  .run("export " + kSample + " --format gsf --set texture.depth=" + depth +
+                       "nm --out d" + depth)
+                  .status,
+              0);
+  std::ofstream(place.path() / "common.toml") << R"(schema_version = 1
+[finger]
+base = "fingers/reference.toml"
+load = "0.3 N"
+[environment]
+relative_humidity = ["35 %"]
+[accuracy]
+level = "draft"
+)";
+  std::ofstream(place.path() / "named.toml") << R"(schema_version = 1
+base = "common.toml"
+[texture]
+type = "measured"
+file = "d350/heightmap.gsf"
+)";
+  const std::string by =
+      " --base common.toml --by friction:low --no-parameters --max-skins 12 --json";
+  const Outcome scans = place.run("rank d350/heightmap.gsf d600/heightmap.gsf" + by),
+                mixed = place.run("rank named.toml d600/heightmap.gsf" + by);
+  ASSERT_EQ(scans.status, 0) << scans.err;
+  ASSERT_EQ(mixed.status, 0) << mixed.err;
+  const auto a = nlohmann::json::parse(scans.out), b = nlohmann::json::parse(mixed.out);
+  ASSERT_EQ(a["candidates"].size(), 2u) << scans.out;
+  EXPECT_EQ(a["candidates"][0]["metrics"], b["candidates"][0]["metrics"]);
+  const Outcome alone = place.run("rank d350/heightmap.gsf d600/heightmap.gsf");
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_NE(alone.err.find("--base COMMON.toml"), std::string::npos) << alone.err;
+}
+
 TEST(Evaluate, GivesTheDocumentedJson) {
   const Workplace place;
   const Outcome run = place.run("evaluate --json " + kSample + kDraft);

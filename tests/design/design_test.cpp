@@ -237,6 +237,9 @@ TEST(Study, ProblemsAcrossFieldsAreLocated) {
             ":3:12: constraints.min_hole: expected a length, got \"1 V\"");
   EXPECT_EQ(problems_of(head + "[constraints]\nmin_whole = \"1 um\"\n"),
             ":3:1: constraints: unknown key `min_whole`, did you mean `min_hole`?");
+  EXPECT_EQ(problems_of(head + "[constraints]\nmax_contact_angle = \"90 deg\"\n"),
+            ":3:1: constraints: `max_contact_angle`: the search changes a dimension between its "
+            "ends alone; say them in [design_space]: \"surface.contact_angle\" = [low, high]");
   EXPECT_EQ(problems_of(head + "[serach]\nseed = 1\n"),
             ":2:2: unknown key `serach`, did you mean `search`?");
   EXPECT_EQ(problems_of(head + "[population]\nfingers = [\"none.toml\"]\n"),

@@ -188,9 +188,19 @@ def smoke(browser, folder):
         browser.run("document.getElementById('filter').value = ''")
         # What was written into the form of searches is there after a reload; the file's own comes back on demand.
         browser.run("const k = document.querySelector('#wishkinds input[value=pillar_array]'); k.click(); const e = document.getElementById('evaluations'); e.value = 37; e.dispatchEvent(new Event('input', {bubbles: true}))")
+        # A share of people that feel it is of a modulation that one names.
+        browser.run("""
+            const line = document.querySelector('.goal'), metric = line.querySelectorAll('select')[2], at = line.querySelector('input');
+            window.hidden = at.parentElement.hidden;
+            metric.value = 'felt';
+            metric.dispatchEvent(new Event('change', {bubbles: true}));
+            at.value = '0.15';
+            at.dispatchEvent(new Event('input', {bubbles: true}));""")
+        check(browser.run("return window.hidden && !document.querySelector('.goal label').hidden"), "the modulation of a share of people")
         time.sleep(1)
         go(browser, studio)
         until(browser, "document.getElementById('evaluations').value === '37' && document.querySelector('#wishkinds input[value=pillar_array]').checked", 10, "the wish after a reload")
+        check(browser.run("const line = document.querySelector('.goal'); return line.querySelectorAll('select')[2].value + line.querySelector('input').value") == "felt0.15", "the modulation after a reload")
         browser.run("document.getElementById('proposed').click()")
         until(browser, "document.getElementById('evaluations').value === '' && !document.querySelector('#wishkinds input[value=pillar_array]').checked", 10, "the file's own wish")
         # A mistake of the wish is said below it.
@@ -303,6 +313,7 @@ def measured(browser, results):
     check(not browser.run(trouble), browser.run(trouble))
     with open(os.path.join(results, "lab", "plan_01.csv"), newline="") as file:
         lines = file.read().split("\n")
+    check(browser.run("return document.getElementById('labwhy').textContent").startswith("Why these: "), "why these measurements")
     check(any("F_off_N" in line for line in lines), f"the plan as a table: {lines[:4]}")
     rows = list(csv.reader(line for line in lines if line and not line.startswith("#")))
     planned = browser.run("return [...document.querySelectorAll('#labbatch tbody tr')].map(r => [...r.cells].map(c => c.textContent))")

@@ -195,12 +195,18 @@ TEST(SearchWish, ProposesTheGoalsAndLimitsOfItsStudy) {
     known = known ||
             (limit["name"] == "min_hole" && limit["unit"] == "um" && limit["at_least"] == true);
   EXPECT_TRUE(known);
+  int of_modulation = 0;  // felt, voltage_for
   for (const Json& metric : wish["metrics"]) {
     EXPECT_NE(metric["name"], "haze");
     // As the page writes it; "felt" alone is no metric.
-    EXPECT_NO_THROW(parse_own_metric("mean(" + metric["name"].get<std::string>() + ")")) << metric;
+    const bool at_modulation = metric["at_modulation"].get<bool>();
+    const auto name = metric["name"].get<std::string>();
+    EXPECT_NO_THROW(
+        parse_own_metric("mean(" + name + (at_modulation ? "(modulation = 0.2)" : "") + ")"))
+        << metric;
+    of_modulation += at_modulation;
   }
-  EXPECT_FALSE(wish["metrics"].empty());
+  EXPECT_EQ(of_modulation, 2);
 }
 
 TEST(SearchWish, IsReadAsThePageSendsIt) {

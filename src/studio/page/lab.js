@@ -49,6 +49,8 @@ function showPlan(lab) {
   const newest = lab.plans[lab.plans.length - 1], done = {};
   lab.told.forEach((t) => t.readings.forEach((r) => { done[r.experiment] = (done[r.experiment] || 0) + 1; }));
   $('labbatch').parentElement.hidden = !newest || !newest.experiments.length;
+  $('labwhy').hidden = $('labbatch').parentElement.hidden || !lab.why;
+  $('labwhy').textContent = lab.why || '';
   if ($('labbatch').parentElement.hidden) return;
   table($('labbatch'), ['', 'design', 'humidity', 'load', 'voltage', 'finger', 'touches', 'told', 'F off expected [mN]', 'F on expected [mN]'], newest.experiments.map((e) => {
     const c = e.conditions;
@@ -84,6 +86,6 @@ export function showLab(now) {
     showPlan(lab);
     showDecisions(lab);
   } else {
-    $('labbatch').parentElement.hidden = $('decisionsbox').hidden = true;
+    $('labbatch').parentElement.hidden = $('labwhy').hidden = $('decisionsbox').hidden = true;
   }
 }

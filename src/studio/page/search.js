@@ -82,9 +82,19 @@ function remover(line, what) {
   b.addEventListener('click', () => line.remove());
   return b;
 }
+// Whether a metric is of a modulation that one names: voltage for, felt.
+function atModulation(metric) {
+  return Boolean((state.wish.metrics.find((x) => x.name === metric) || {}).at_modulation);
+}
 function goal(direction, expression) {
   const line = make('div', { className: 'wishline goal' }), m = /^(\w+)\((.*)\)$/.exec(expression) || [0, 'mean', expression];
-  line.append(select(['maximise', 'minimise'], direction, 'direction'), select(summaries, m[1], 'over humidity'), ...explained(select(state.wish.metrics.map((x) => x.name), m[2], 'metric'), state.wish.metrics), remover(line, 'wish'));
+  const inner = /^(\w+)\(\s*modulation\s*=\s*(.*)\)$/.exec(m[2]) || [0, m[2], '0.3'];
+  const metric = select(state.wish.metrics.map((x) => x.name), inner[1], 'metric'), at = make('input', { type: 'text', value: inner[2], size: 4 }), word = make('label', { className: 'line', textContent: 'of modulation ' });
+  word.append(at);
+  const say = () => { word.hidden = !atModulation(metric.value); };
+  metric.addEventListener('change', say);
+  say();
+  line.append(select(['maximise', 'minimise'], direction, 'direction'), select(summaries, m[1], 'over humidity'), ...explained(metric, state.wish.metrics), word, remover(line, 'wish'));
   return line;
 }
 function limit({ name, limit: value }) {
@@ -98,7 +108,11 @@ function limit({ name, limit: value }) {
   return line;
 }
 function wishNow() {
-  const parts = (line) => [...line.querySelectorAll('select')].map((s) => s.value), of = (direction) => [...document.querySelectorAll('.goal')].map(parts).filter((p) => p[0] === direction).map((p) => `${p[1]}(${p[2]})`);
+  const parts = (line) => {
+    const [way, summary, metric] = [...line.querySelectorAll('select')].map((s) => s.value);
+    return [way, summary, atModulation(metric) ? `${metric}(modulation = ${machine(line.querySelector('input').value)})` : metric];
+  };
+  const of = (direction) => [...document.querySelectorAll('.goal')].map(parts).filter((p) => p[0] === direction).map((p) => `${p[1]}(${p[2]})`);
   return {
     variables: [...$('variables').tBodies[0].rows].filter((r) => r.querySelector('[type=checkbox]').checked).map((r) => {
       const [low, high, excluding] = [...r.querySelectorAll('[type=text]')].map((t) => machine(t.value));
