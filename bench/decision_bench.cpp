@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -24,6 +25,7 @@
 #include "bench/front_file.h"
 #include "estimate/belief.h"
 #include "forward/forward.h"
+#include "numerics/statistics.h"
 #include "search/levels.h"
 #include "search/run.h"
 #include "search/task.h"
@@ -33,9 +35,10 @@ using namespace papilla::tests;
 
 namespace {
 
-// Skins of the truths start here: so many, so many of them in equilibrium and in the 3-D field,
-// that the truths are known better than what is said of them.
-constexpr int kFirstTruthSkin = 3000, kTruthSkins = 40, kTruthEquilibria = 16, kTruthFields = 4;
+// Skins of a truth, twice as many as of a confirmation, so many of them in the 3-D field; where the
+// sets of skins start.
+constexpr int kTruthSkins = 20, kTruthFields = 2;
+constexpr std::array kTruthSets{3000, 4000};
 
 // Numbers of the finger times exp(s normal): skin, load, layer, water.
 Belief planted(const Finger& finger, int members) {
@@ -70,22 +73,15 @@ std::vector<TaskAnswer> confirmed(const StudyProblem& problem, const Design& des
   return out;
 }
 
-// What a truth is judged by: the confirmation's level, on skins that nothing was chosen by.
-Fidelity truth_fidelity(const StudyProblem& problem) {
-  Fidelity out = stage_fidelity(problem, Stage::Confirm);
-  out.threads = 0;
-  out.first_skin = kFirstTruthSkin;
-  out.skins = kTruthSkins;
-  out.equilibrium_skins = kTruthEquilibria;
-  out.field_skins = kTruthFields;
-  return out;
-}
-
 // A design where the truth is a member, every task at that member's finger and model; without one,
 // as the finger is.
-Score true_score(const StudyProblem& problem, const Design& design,
+Score true_score(const StudyProblem& problem, const Design& design, int first_skin,
                  std::optional<std::size_t> member) {
-  const Fidelity fidelity = truth_fidelity(problem);
+  Fidelity fidelity = stage_fidelity(problem, Stage::Confirm);
+  fidelity.threads = 0;
+  fidelity.first_skin = first_skin;
+  fidelity.skins = kTruthSkins;
+  fidelity.field_skins = kTruthFields;
   std::vector<TaskAnswer> answers;
   for (const StudyTask& task : problem.tasks()) {
     const Design d = task_design(problem.study(), design, task);
@@ -120,11 +116,66 @@ std::vector<FinalDesign> judged(const StudyProblem& problem, const std::vector<P
   return out;
 }
 
+// What the designs are worth at a member, or as the finger is, by each set of skins.
+class Truth {
+ public:
+  Truth(const StudyProblem& problem, const std::vector<FinalDesign>& designs, const PickRule& rule,
+        const std::vector<Extent>& extent, std::optional<std::size_t> member) {
+    for (const int first_skin : kTruthSets) {
+      MemberWorth worth{{1}, {}, {}};
+      for (const FinalDesign& f : designs) {
+        const Score score = true_score(problem, f.design, first_skin, member);
+        worth.worth.push_back(
+            {score.ok ? pick_worth(rule, pick_candidate(problem, score), extent) : std::nan("")});
+        worth.kept.push_back({{problem.feasible(score, f.design)}});
+      }
+      prospects_.push_back(prospects(worth, {}));
+      sets_.push_back(std::move(worth));
+    }
+  }
+
+  double worth(std::size_t set, std::size_t design) const { return sets_[set].worth[design][0]; }
+  double worth(std::size_t design) const { return (worth(0, design) + worth(1, design)) / 2; }
+  double share_of_best(std::size_t design) const {
+    return (prospects_[0][design].p_best + prospects_[1][design].p_best) / 2;
+  }
+  // How much more the best by one set is worth by the other: no set flatters what it has chosen.
+  double regret(std::size_t choice) const {
+    double sum = 0;
+    for (std::size_t set = 0; set < 2; ++set) {
+      const std::vector<Prospect>& other = prospects_[1 - set];
+      sum += other[choice].regret - other[chosen(prospects_[set], 0)].regret;
+    }
+    return sum / 2;
+  }
+  // Standard error of a worth, without what the skins do to all designs alike.
+  double error() const {
+    std::vector<double> differences;
+    for (std::size_t i = 0; i < sets_[0].worth.size(); ++i) {
+      if (!std::isnan(worth(i))) differences.push_back(worth(0, i) - worth(1, i));
+    }
+    return mean_estimate(differences).se * std::sqrt(static_cast<double>(differences.size())) / 2;
+  }
+
+ private:
+  std::vector<MemberWorth> sets_;
+  std::vector<std::vector<Prospect>> prospects_;
+};
+
 struct Sums {
-  double by_belief = 0, by_fit = 0, expected = 0, error = 0, spread = 0;
+  double by_belief = 0, by_fit = 0, expected = 0, error = 0, spread = 0, noise = 0;
   int differences = 0;
   std::vector<double> said, so, scatter;
 };
+
+template <class Said>
+void print_worth(std::size_t designs, const Said& said, const Truth& truth) {
+  fmt::print("# said, is by either set:");
+  for (std::size_t i = 0; i < designs; ++i)
+    fmt::print(" {:.4f} {:.4f} {:.4f}{}", said(i), truth.worth(0, i), truth.worth(1, i),
+               i + 1 < designs ? "," : "\n");
+  std::fflush(stdout);
+}
 
 int planted_truths(const std::string& file, const std::string& front, std::size_t most, int members,
                    std::size_t truths) {
@@ -143,57 +194,48 @@ int planted_truths(const std::string& file, const std::string& front, std::size_
   sums.said = sums.so = sums.scatter = std::vector<double>(kBins, 0);
   fmt::print("truth,hypothesis,by belief,p(best),expected regret,regret,by the fit,its regret\n");
   truths = std::min(truths, all.weights.size());
-  const auto true_worth = [&](std::optional<std::size_t> member) {
-    MemberWorth truth{{1}, {}, {}};
-    for (const FinalDesign& f : designs) {
-      const Score score = true_score(problem, f.design, member);
-      truth.worth.push_back(
-          {score.ok ? pick_worth(rule, pick_candidate(problem, score), extent) : std::nan("")});
-      truth.kept.push_back({{problem.feasible(score, f.design)}});
-    }
-    return truth;
+  const auto row = [&](std::size_t number, const std::string& name,
+                       const std::vector<Prospect>& found, std::size_t choice, const Truth& truth) {
+    fmt::print("{},{},{},{:.3f},{:.4f},{:.4f},{},{:.4f}\n", number, name, choice + 1,
+               found[choice].p_best, found[choice].regret, truth.regret(choice), by_fit + 1,
+               truth.regret(by_fit));
   };
-  const auto print_worth = [&](const auto& said, const MemberWorth& truth) {
-    fmt::print("# said:");
-    for (std::size_t i = 0; i < designs.size(); ++i) fmt::print(" {:.4f}", said(i));
-    fmt::print("; is:");
-    for (const std::vector<double>& w : truth.worth) fmt::print(" {:.4f}", w[0]);
-    fmt::print("\n");
-    std::fflush(stdout);
-  };
-  const auto confirmed_worth = [&](std::size_t i) {
-    return pick_worth(rule, candidates[i], extent);
-  };
-  print_worth(confirmed_worth, true_worth({}));
+  {
+    const Truth truth(problem, designs, rule, extent, {});
+    const std::vector<Prospect> found = prospects(all, problem.belief_risk());
+    row(0, "the finger as it is", found, chosen(found, study.risk.limits), truth);
+    print_worth(
+        designs.size(), [&](std::size_t i) { return pick_worth(rule, candidates[i], extent); },
+        truth);
+  }
   for (std::size_t k = 0; k < truths; ++k) {
     const std::size_t t = k * all.weights.size() / truths;
     MemberWorth others = all;
     others.weights[t] = 0;
     const std::vector<Prospect> found = prospects(others, problem.belief_risk());
     const std::size_t choice = chosen(found, study.risk.limits);
-    const MemberWorth truth = true_worth(t);
-    const std::vector<Prospect> true_one = prospects(truth, {});
+    const Truth truth(problem, designs, rule, extent, t);
     for (std::size_t i = 0; i < designs.size(); ++i) {
       const std::size_t bin =
           std::min(kBins - 1, static_cast<std::size_t>(kBins * found[i].p_best));
       sums.said[bin] += found[i].p_best;
       sums.scatter[bin] += found[i].p_best * (1 - found[i].p_best);
-      sums.so[bin] += true_one[i].p_best;
+      sums.so[bin] += truth.share_of_best(i);
       // What few skins say of the difference of two designs at this member.
       const double said = all.worth[i][t] - all.worth[choice][t],
-                   is = truth.worth[i][0] - truth.worth[choice][0];
+                   is = truth.worth(i) - truth.worth(choice);
       if (i == choice || std::isnan(said - is)) continue;
       sums.error += square(said - is);
       sums.spread += square(is);
       ++sums.differences;
     }
-    sums.by_belief += true_one[choice].regret;
-    sums.by_fit += true_one[by_fit].regret;
+    sums.by_belief += truth.regret(choice);
+    sums.by_fit += truth.regret(by_fit);
     sums.expected += found[choice].regret;
-    fmt::print("{},{},{},{:.3f},{:.4f},{:.4f},{},{:.4f}\n", t + 1,
-               problem.belief()->members[t].hypothesis, choice + 1, found[choice].p_best,
-               found[choice].regret, true_one[choice].regret, by_fit + 1, true_one[by_fit].regret);
-    print_worth([&](std::size_t i) { return all.worth[i][t]; }, truth);
+    sums.noise += square(truth.error());
+    row(t + 1, problem.belief()->members[t].hypothesis, found, choice, truth);
+    print_worth(
+        designs.size(), [&](std::size_t i) { return all.worth[i][t]; }, truth);
   }
   const auto n = static_cast<double>(truths);
   fmt::print("# {} designs, the best at each member is worth {:.4f} on average\n", designs.size(),
@@ -201,11 +243,12 @@ int planted_truths(const std::string& file, const std::string& front, std::size_
   fmt::print("# mean regret: by belief {:.4f} (expected {:.4f}), by the fit {:.4f}\n",
              sums.by_belief / n, sums.expected / n, sums.by_fit / n);
   fmt::print(
-      "# differences of two designs at the truth: root mean square {:.4f}, error of few "
-      "skins {:.4f}\n",
-      std::sqrt(sums.spread / sums.differences), std::sqrt(sums.error / sums.differences));
+      "# differences of two designs at the truth: root mean square {:.4f}, of what is said {:.4f} "
+      "off it, which is known to {:.4f}\n",
+      std::sqrt(sums.spread / sums.differences), std::sqrt(sums.error / sums.differences),
+      std::sqrt(2 * sums.noise / n));
   for (std::size_t bin = 0; bin < kBins; ++bin)
-    fmt::print("# p(best) {:.2f} to {:.2f}: {:.1f} said, {:.0f} true, binomial error {:.1f}\n",
+    fmt::print("# p(best) {:.2f} to {:.2f}: {:.1f} said, {:.1f} true, binomial error {:.1f}\n",
                static_cast<double>(bin) / kBins, static_cast<double>(bin + 1) / kBins,
                sums.said[bin], sums.so[bin], std::sqrt(sums.scatter[bin]));
   return 0;

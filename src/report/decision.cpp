@@ -276,6 +276,18 @@ std::string chosen_how(const ResultFiles& f) {
              : fmt::format("the best by risk.belief = \"{}\"", f.study.risk.belief);
 }
 
+// How much of the doubt more skins would take away, and what only measurements can.
+std::string settled_sentence(const ResultFiles& f) {
+  const Decision& d = decision_of(f);
+  constexpr double kFew = 0.02;  // of p(best), by draws
+  if (d.settled.p_best < d.designs[d.best].p_best + kFew) return {};
+  return fmt::format(
+      " Skins without end would make that {} and {} on average: what is missing then, only "
+      "measurements tell.",
+      percent_stated("probability of being the best with skins without end", d.settled.p_best),
+      worth_text(f, "expected regret with skins without end", d.settled.regret));
+}
+
 }  // namespace
 
 std::optional<std::size_t> design_to_measure(const ResultFiles& f) {
@@ -300,7 +312,8 @@ std::vector<std::string> decision_grounds(const ResultFiles& f) {
       regret_text(f, shown), share_text(f));
   if (shown != d.best)
     return {sure + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f))};
-  std::vector<std::string> out{sure + "." + others_sentence(f) + limits_sentence(f)};
+  std::vector<std::string> out{sure + "." + settled_sentence(f) + others_sentence(f) +
+                               limits_sentence(f)};
   if (d.designs.size() > 1) out.push_back("What would overturn it: " + overturned_text(f) + ".");
   if (std::string measure = measure_sentence(f); !measure.empty()) out.push_back(measure);
   return out;
@@ -391,6 +404,8 @@ Json decision_json(const ResultFiles& f) {
            {"effective_members", json_number(d.effective_members)},
            {"best", folder(d.best)},
            {"best_worth", json_number(d.best_worth)},
+           {"with_endless_skins",
+            {{"p_best", json_number(d.settled.p_best)}, {"regret", json_number(d.settled.regret)}}},
            {"by_the_fit_alone", folder(d.nominal)},
            {"keeps_limits_as_wanted", d.sure(f.study.risk.limits)},
            {"designs", std::move(designs)},

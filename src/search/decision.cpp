@@ -263,6 +263,7 @@ Decision decide(const StudyProblem& problem, const std::vector<FinalDesign>& fin
   const double limits = problem.study().risk.limits;
   out.designs = prospects(worth, problem.belief_risk());
   out.best = chosen(out.designs, limits);
+  out.settled = settled_skins(worth, problem.belief_risk(), limits);
   out.best_worth = best_worth(worth);
   for (std::size_t k = 0; k < problem.objectives().size(); ++k) {
     std::vector<double>& p = out.p_best_by.emplace_back();

@@ -15,6 +15,8 @@ namespace {
 
 // Of the skins, a member: p(best) over the 32 members of the shipped belief to .011.
 constexpr int kDraws = 64;
+// Of the skins, all members at once: the same p(best) to .025.
+constexpr int kSettledDraws = 400;
 
 double total(const std::vector<double>& weights) {
   return std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -120,29 +122,39 @@ std::vector<double> drawn_skins(RandomStream& random, std::size_t skins) {
   return out;
 }
 
+// The most skins behind a worth.
+std::size_t skins_of(const MemberWorth& d) {
+  std::size_t out = 0;
+  for (const auto& design : d.by_skin) {
+    for (const auto& member : design) out = std::max(out, member.size());
+  }
+  return out;
+}
+
+// A member at a draw of the skins, one more of the members of `out`.
+void add_draw(const MemberWorth& all, std::size_t member, const std::vector<double>& z,
+              MemberWorth& out) {
+  out.weights.push_back(all.weights[member]);
+  out.worth.resize(all.worth.size());
+  out.kept.resize(all.kept.size());
+  for (std::size_t i = 0; i < all.worth.size(); ++i) {
+    const std::vector<double>& moves = all.by_skin[i][member];
+    out.worth[i].push_back(
+        std::inner_product(moves.begin(), moves.end(), z.begin(), all.worth[i][member]));
+    out.kept[i].resize(all.kept[i].size());
+    for (std::size_t k = 0; k < all.kept[i].size(); ++k)
+      out.kept[i][k].push_back(all.kept[i][k][member]);
+  }
+}
+
 // Each member as so many that share its weight, at draws of the skins. Eq. search.15
 MemberWorth over_skins(const MemberWorth& all) {
-  std::size_t skins = 0;
-  for (const auto& design : all.by_skin) {
-    for (const auto& member : design) skins = std::max(skins, member.size());
-  }
+  const std::size_t skins = skins_of(all);
   if (skins < 2) return all;
   MemberWorth out;
-  out.worth.resize(all.worth.size());
-  for (const auto& limits : all.kept) out.kept.emplace_back(limits.size());
   RandomStream random(1, "decision");
   for (std::size_t m = 0; m < all.weights.size(); ++m) {
-    for (int draw = 0; draw < kDraws; ++draw) {
-      const std::vector<double> z = drawn_skins(random, skins);
-      out.weights.push_back(all.weights[m]);
-      for (std::size_t i = 0; i < all.worth.size(); ++i) {
-        const std::vector<double>& moves = all.by_skin[i][m];
-        out.worth[i].push_back(
-            std::inner_product(moves.begin(), moves.end(), z.begin(), all.worth[i][m]));
-        for (std::size_t k = 0; k < all.kept[i].size(); ++k)
-          out.kept[i][k].push_back(all.kept[i][k][m]);
-      }
-    }
+    for (int draw = 0; draw < kDraws; ++draw) add_draw(all, m, drawn_skins(random, skins), out);
   }
   return out;
 }
@@ -240,6 +252,26 @@ std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& ri
       for (std::size_t k = 0; k < p.p_limit.size(); ++k) p.p_limit[k] += d.kept[i][k][m] ? w : 0;
     }
     p.merit = risk.regret ? -p.regret : apply_risk(risk.risk, true, worth, d.weights);
+  }
+  return out;
+}
+
+SettledSkins settled_skins(const MemberWorth& designs, const BeliefRisk& risk, double p_limits) {
+  const std::size_t skins = skins_of(designs);
+  const int draws = skins < 2 ? 1 : kSettledDraws;
+  RandomStream random(2, "decision");
+  SettledSkins out;
+  for (int draw = 0; draw < draws; ++draw) {
+    MemberWorth there = designs;
+    if (skins >= 2) {
+      const std::vector<double> z = drawn_skins(random, skins);  // of all members at once
+      there = {};
+      for (std::size_t m = 0; m < designs.weights.size(); ++m) add_draw(designs, m, z, there);
+    }
+    const std::vector<Prospect> found = prospects(there, risk);
+    const Prospect& choice = found[chosen(found, p_limits)];
+    out.p_best += choice.p_best / draws;
+    out.regret += choice.regret / draws;
   }
   return out;
 }

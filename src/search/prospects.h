@@ -55,6 +55,13 @@ struct Prospect {
 };
 std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& risk);
 
+// Of the design that would be chosen if skins left nothing open, on average over what they may
+// turn out to say: what more of them can bring, and what they cannot. Eq. search.24
+struct SettledSkins {
+  double p_best = 0, regret = 0;
+};
+SettledSkins settled_skins(const MemberWorth& designs, const BeliefRisk& risk, double p_limits);
+
 // What the best at each member, and draw of its skins, is worth on average.
 double best_worth(const MemberWorth& designs);
 

@@ -22,7 +22,7 @@ std::string refusal(const std::string& section) {
 // The pages of docs/reference/ are kept right by people who read them.
 TEST(Reference, OfEachSectionIsItsPage) {
   const std::vector<std::string> sections = reference_sections();
-  EXPECT_EQ(sections.size(), 16u);
+  EXPECT_EQ(sections.size(), 17u);
   for (const std::string& section : sections) {
     EXPECT_EQ(reference_section(section, ReferenceFormat::Markdown),
               read_bytes(std::string(PAPILLA_SOURCE_DIR) + "/docs/reference/" + section + ".md"))
@@ -143,11 +143,12 @@ TEST(Reference, AWordOfTheFieldLeadsToItsKey) {
   EXPECT_EQ(refusal("voltage"), "no section `voltage`, did you mean `drive.amplitude`?");
   EXPECT_EQ(refusal("wall_angle"), "no section `wall_angle`, did you mean `texture.wall_angle`?");
   EXPECT_EQ(refusal("scater"), "no section `scater`, did you mean `scatter`?");
-  EXPECT_EQ(refusal("qqqqqqqqqqqq"),
-            "no section `qqqqqqqqqqqq`; known: texture, surface, view, finger, counterface, "
-            "environment, drive, model, accuracy, study, metrics, persson, circuit, statistics, "
-            "export, wafer, design_space, objective, constraints, population, scenarios, scatter, "
-            "risk, search, base");
+  EXPECT_EQ(
+      refusal("qqqqqqqqqqqq"),
+      "no section `qqqqqqqqqqqq`; known: texture, surface, view, finger, counterface, "
+      "environment, drive, model, accuracy, study, metrics, persson, circuit, statistics, "
+      "export, wafer, calibration, design_space, objective, constraints, population, scenarios, "
+      "scatter, risk, search, base");
   EXPECT_EQ(refusal("texture.depht"), "no key `texture.depht`, did you mean `texture.depth`?");
   // A word of its own section before others: the surface is stiff, and so is the skin.
   EXPECT_EQ(refusal("surface.stiffness"),

@@ -82,6 +82,35 @@ TEST(Prospects, AreOfWhatSkinsLeaveOpenToo) {
 }
 
 // A member moves three designs by 2, 3 and 4, the first skin of it by the same differences.
+// Two designs that many skins part by one standard error, at both members alike: E max(d, 0) is
+// lost by the better one today, nothing once it is known; at two members that differ, what these
+// part stays.
+TEST(Prospects, SayWhatSkinsWithoutEndWouldLeave) {
+  constexpr std::size_t kSkins = 400;
+  const double each = 1 / std::sqrt(static_cast<double>(kSkins));
+  const auto designs = [&](double first, double second) {
+    MemberWorth d = worth_of({1, 1}, {{first, second}, {0, 0}});
+    d.by_skin = {{std::vector<double>(kSkins, each), std::vector<double>(kSkins, each)},
+                 {std::vector<double>(kSkins, 0), std::vector<double>(kSkins, 0)}};
+    return d;
+  };
+  const MemberWorth alike = designs(1, 1);
+  const SettledSkins settled = settled_skins(alike, {}, 0);
+  EXPECT_NEAR(prospects(alike, {})[0].p_best, normal_cdf(1), 0.02);
+  const double lost = std::exp(-0.5) / std::sqrt(2 * kPi) - normal_cdf(-1);  // E max(-d, 0)
+  EXPECT_NEAR(prospects(alike, {})[0].regret, lost, 0.02);
+  EXPECT_NEAR(settled.p_best, 1, 1e-9);
+  EXPECT_NEAR(settled.regret, 0, 1e-9);
+  // Far apart at either member: skins are no part of the doubt.
+  const MemberWorth apart = designs(200, -190);
+  EXPECT_NEAR(settled_skins(apart, {}, 0).p_best, 0.5, 1e-9);
+  EXPECT_NEAR(settled_skins(apart, {}, 0).regret, 95, 0.1);
+  // Without skins it is what is said today.
+  MemberWorth known = apart;
+  known.by_skin.clear();
+  EXPECT_EQ(settled_skins(known, {}, 0).regret, prospects(known, {})[0].regret);
+}
+
 TEST(Prospects, MovesAreShrunkByWhatSkinsScatterThemBy) {
   const std::vector<SkinnedWorth> own = {{1, {0, 0.1}}, {2, {0, 0.1}}, {3, {0, 0.1}}};
   const auto shrunk = [&](double scatter) {
