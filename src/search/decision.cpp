@@ -143,27 +143,32 @@ MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDes
   const auto worth_of = [&](const Score& score) {
     return score.ok ? pick_worth(rule, pick_candidate(problem, score), extents) : std::nan("");
   };
-  std::vector<SkinnedWorth> own;
+  const auto skinned = [&](const Score& score, const std::vector<Score>& by_skin) {
+    SkinnedWorth of{worth_of(score)};
+    for (const Score& moved : by_skin) of.by_skin.push_back(worth_of(moved) - of.worth);
+    return of;
+  };
+  std::vector<SkinnedWorth> confirmed, few;
   for (const FinalDesign& f : designs) {
-    own.push_back({worth_of(f.confirmed)});
-    for (const Score& moved : f.confirmed_by_skin)
-      own.back().by_skin.push_back(worth_of(moved) - own.back().worth);
+    confirmed.push_back(skinned(f.confirmed, f.confirmed_by_skin));
+    few.push_back(skinned(f.few.back().score, f.few.back().by_skin));
     std::vector<double>& values = out.worth.emplace_back();
     std::vector<std::vector<double>>& by_skin = out.by_skin.emplace_back();
     std::vector<std::vector<bool>>& kept = out.kept.emplace_back(
         problem.study().constraints.size(), std::vector<bool>(f.members.size(), false));
     for (std::size_t m = 0; m < f.members.size(); ++m) {
       const Score& there = f.members[m];
-      values.push_back(worth_of(there));
-      std::vector<double>& moves = by_skin.emplace_back();
+      const SkinnedWorth alone = skinned(f.few[m].score, f.few[m].by_skin);
+      values.push_back(there.ok ? alone.worth : std::nan(""));
+      by_skin.push_back(alone.by_skin);
       if (!there.ok) continue;
-      for (const Score& moved : f.members_by_skin[m])
-        moves.push_back(worth_of(moved) - values.back());
       const std::vector<LimitValue> limits = problem.constraints().values(f.design, there);
       for (std::size_t k = 0; k < kept.size(); ++k) kept[k][m] = limits[k].kept();
     }
   }
-  shrink_moves(own, moves_in_proportion(problem, rule), out);
+  const bool in_proportion = moves_in_proportion(problem, rule);
+  combine_levels(confirmed, few, in_proportion, out);
+  shrink_moves(confirmed, in_proportion, out);
   return out;
 }
 
@@ -178,36 +183,52 @@ PickCandidate pick_candidate(const StudyProblem& problem, const Score& score) {
 void add_members(const StudyProblem& problem, const std::vector<TaskAnswer>& answers,
                  FinalDesign& design) {
   const std::size_t nominal = problem.nominal_tasks(), scatter = problem.study().scatter.size();
+  const std::size_t members = problem.belief()->members.size(), tasks = design.answers.size();
   const StudyGoals& goals = problem.goals();
-  // Scatter of fabrication is moved as what is designed.
-  const auto members_of = [&](std::size_t t) -> const std::vector<TaskAnswer>& {
-    return answers[t < nominal ? t : (t - nominal) / (2 * scatter)].members;
+  const std::vector<TaskAnswer>& confirmed = design.answers;
+  const auto nominal_of = [&](std::size_t t) {
+    return t < nominal ? t : (t - nominal) / (2 * scatter);
   };
-  const auto score_at = [&](std::size_t member, auto&& there) {
-    std::vector<TaskAnswer> moved;
-    for (std::size_t t = 0; t < design.answers.size(); ++t) {
-      const std::vector<TaskAnswer>& of = members_of(t);
-      moved.push_back(
-          member + 1 < of.size()
-              ? moved_answer(goals, there(design.answers[t]), there(of.back()), there(of[member]))
-              : TaskAnswer::refused(TaskStatus::Kind::NotDefined, "no answer"));
+  const auto as_it_is = [&](std::size_t t) { return answers[nominal_of(t)].members.back(); };
+  const auto at_member = [&](std::size_t t, std::size_t member) {
+    const std::vector<TaskAnswer>& of = answers[nominal_of(t)].members;
+    return member + 1 < of.size() ? of[member]
+                                  : TaskAnswer::refused(TaskStatus::Kind::NotDefined, "no answer");
+  };
+  // there: the answer of a task, once each of the skins has moved it.
+  const auto skinned = [&](auto&& there) {
+    const auto score = [&](auto&& by) {
+      std::vector<TaskAnswer> all;
+      for (std::size_t t = 0; t < tasks; ++t) all.push_back(there(t, by));
+      return problem.score(design.design, all);
+    };
+    SkinnedScore out{score([](const TaskAnswer& a) { return a; }), {}};
+    std::size_t skins = 0;
+    for (std::size_t t = 0; t < nominal; ++t) {
+      there(t, [&](const TaskAnswer& a) {
+        skins = std::max(skins, skins_behind(a));
+        return a;
+      });
     }
-    return problem.score(design.design, moved);
+    for (std::size_t skin = 0; skin < skins && out.score.ok; ++skin)
+      out.by_skin.push_back(score([&](const TaskAnswer& a) { return by_skin(goals, a, skin); }));
+    return out;
   };
-  std::size_t skins = 0;
-  for (std::size_t t = 0; t < nominal; ++t)
-    skins = std::max(skins, skins_behind(design.answers[t]));
-  for (std::size_t skin = 0; skin < skins; ++skin) {
+  design.confirmed_by_skin =
+      skinned([&](std::size_t t, auto&& by) { return by(confirmed[t]); }).by_skin;
+  for (std::size_t m = 0; m < members; ++m) {
     std::vector<TaskAnswer> moved;
-    for (const TaskAnswer& a : design.answers) moved.push_back(by_skin(goals, a, skin));
-    design.confirmed_by_skin.push_back(problem.score(design.design, moved));
+    for (std::size_t t = 0; t < tasks; ++t)
+      moved.push_back(moved_answer(goals, confirmed[t], as_it_is(t), at_member(t, m)));
+    design.members.push_back(problem.score(design.design, moved));
   }
-  for (std::size_t m = 0; m < problem.belief()->members.size(); ++m) {
-    design.members.push_back(
-        score_at(m, [](const TaskAnswer& a) -> const TaskAnswer& { return a; }));
-    std::vector<Score>& by = design.members_by_skin.emplace_back();
-    for (std::size_t skin = 0; skin < skins; ++skin)
-      by.push_back(score_at(m, [&](const TaskAnswer& a) { return by_skin(goals, a, skin); }));
+  for (std::size_t m = 0; m <= members; ++m) {
+    design.few.push_back(skinned([&](std::size_t t, auto&& by) {
+      const TaskAnswer there = by(m < members ? at_member(t, m) : as_it_is(t));
+      // Scatter of fabrication moves a member as it moves what is designed.
+      return t < nominal ? there
+                         : moved_answer(goals, there, confirmed[nominal_of(t)], confirmed[t]);
+    }));
   }
 }
 

@@ -107,8 +107,28 @@ std::vector<double> beyond(const std::vector<double>& alike, std::vector<double>
   return values;
 }
 
+// What a skin moves; nothing where it was not there.
+double of_skin(const std::vector<double>& by_skin, std::size_t skin) {
+  return skin < by_skin.size() ? by_skin[skin] : 0;
+}
+
 double squares(const std::vector<double>& v) {
   return std::inner_product(v.begin(), v.end(), v.begin(), 0.0);
+}
+
+// Degrees of freedom of the scatter of `designs` designs, from what each skin moves them by
+// (Satterthwaite): skins that move alike designs together leave fewer than designs are. So few
+// skins make it seem less than it is, by 1/f = 1/f' - 1/(skins - 1).
+double freedom_of(const std::vector<std::vector<double>>& of_skins, std::size_t designs) {
+  double trace = 0, square_trace = 0;
+  for (const std::vector<double>& a : of_skins) {
+    trace += squares(a);
+    for (const std::vector<double>& b : of_skins)
+      square_trace += square(std::inner_product(a.begin(), a.end(), b.begin(), 0.0));
+  }
+  const double seen = square_trace / square(trace);
+  return 1 / std::max(1 / (static_cast<double>(designs) - 1),
+                      seen - 1 / (static_cast<double>(of_skins.size()) - 1));
 }
 
 // A standard normal number a skin, wider as few skins know their own scatter badly: Student's
@@ -187,6 +207,61 @@ bool MemberWorth::keeps(std::size_t design, std::size_t member) const {
                      [member](const std::vector<bool>& of) { return of[member]; });
 }
 
+void combine_levels(const std::vector<SkinnedWorth>& confirmed,
+                    const std::vector<SkinnedWorth>& few, bool in_proportion,
+                    MemberWorth& designs) {
+  for (std::size_t m = 0; m < designs.weights.size(); ++m) {
+    std::vector<std::size_t> known;
+    std::vector<double> alike;
+    double there = 0, here = 0, fine = 0;
+    std::size_t skins = 0;
+    for (std::size_t i = 0; i < few.size(); ++i) {
+      if (!std::isfinite(designs.worth[i][m] - few[i].worth - confirmed[i].worth)) {
+        designs.worth[i][m] = std::nan("");
+        continue;
+      }
+      known.push_back(i);
+      alike.push_back(in_proportion ? confirmed[i].worth : 1);
+      there += designs.worth[i][m];
+      here += few[i].worth;
+      fine += confirmed[i].worth;
+      skins = std::max({skins, confirmed[i].by_skin.size(), few[i].by_skin.size(),
+                        designs.by_skin[i][m].size()});
+    }
+    if (known.empty() || (in_proportion && (here == 0 || fine == 0))) continue;
+    const double to_fine = in_proportion ? fine / here : 1,
+                 moved = in_proportion ? there / here : 1;
+    const double shift = in_proportion ? 0 : (fine - here) / static_cast<double>(known.size());
+    // What each skin moves designs apart by: at the member; where the levels differ as the finger
+    // is.
+    std::vector<std::vector<double>> member, levels;
+    double together = 0, alone = 0;
+    for (std::size_t s = 0; s < skins; ++s) {
+      std::vector<double> x, y;
+      for (const std::size_t i : known) {
+        x.push_back(to_fine * of_skin(designs.by_skin[i][m], s));
+        y.push_back(moved *
+                    (to_fine * of_skin(few[i].by_skin, s) - of_skin(confirmed[i].by_skin, s)));
+      }
+      member.push_back(x);
+      levels.push_back(y);
+      x = beyond(alike, std::move(x));
+      y = beyond(alike, std::move(y));
+      together += std::inner_product(x.begin(), x.end(), y.begin(), 0.0);
+      alone += squares(y);
+    }
+    const double corrected = alone > 0 ? std::clamp(together / alone, 0.0, 1.0) : 1;
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      const std::size_t i = known[k];
+      const double difference = moved * (to_fine * few[i].worth + shift - confirmed[i].worth);
+      designs.worth[i][m] = to_fine * designs.worth[i][m] + shift - corrected * difference;
+      std::vector<double>& by_skin = designs.by_skin[i][m];
+      by_skin.resize(skins);
+      for (std::size_t s = 0; s < skins; ++s) by_skin[s] = member[s][k] - corrected * levels[s][k];
+    }
+  }
+}
+
 void shrink_moves(const std::vector<SkinnedWorth>& own, bool in_proportion, MemberWorth& designs) {
   for (std::size_t m = 0; m < designs.weights.size(); ++m) {
     std::vector<std::size_t> known;
@@ -201,9 +276,6 @@ void shrink_moves(const std::vector<SkinnedWorth>& own, bool in_proportion, Memb
     }
     if (known.size() < 2 || total(alike) == 0) continue;
     const double factor = in_proportion ? there / here : 1;
-    const auto at = [](const std::vector<double>& v, std::size_t s) {
-      return s < v.size() ? v[s] : 0;
-    };
     std::size_t skins = 0;
     std::vector<double> moves;
     for (const std::size_t i : known) {
@@ -216,13 +288,13 @@ void shrink_moves(const std::vector<SkinnedWorth>& own, bool in_proportion, Memb
     for (std::size_t s = 0; s < skins; ++s) {
       std::vector<double> move;
       for (const std::size_t i : known)
-        move.push_back(at(designs.by_skin[i][m], s) - factor * at(own[i].by_skin, s));
+        move.push_back(of_skin(designs.by_skin[i][m], s) - factor * of_skin(own[i].by_skin, s));
       of_skins.push_back(beyond(alike, std::move(move)));
       scatter += squares(of_skins.back());
     }
     if (!(scatter > 0)) continue;
     const Estimate kept =
-        share_of_moves(squares(moves) / scatter, static_cast<double>(known.size()) - 1);
+        share_of_moves(squares(moves) / scatter, freedom_of(of_skins, known.size()));
     for (std::size_t k = 0; k < known.size(); ++k) {
       designs.worth[known[k]][m] -= (1 - kept.value) * moves[k];
       std::vector<double>& by_skin = designs.by_skin[known[k]][m];

@@ -41,6 +41,12 @@ struct SkinnedWorth {
   double worth = 0;
   std::vector<double> by_skin{};
 };
+// Designs at the members on few skins, at the level of `few`, become what they say beside
+// `confirmed`, the same designs at the finer level as the finger is: the difference of the levels
+// that all designs share is taken off in full, what it tells designs apart by as far as the skins
+// move it and the member together. Eq. search.25
+void combine_levels(const std::vector<SkinnedWorth>& confirmed,
+                    const std::vector<SkinnedWorth>& few, bool in_proportion, MemberWorth& designs);
 // A member moves all designs by one difference, or in proportion to `own`, what they are worth as
 // the finger is; what it tells them apart by beyond that is shrunk by what it scatters from skin to
 // skin. How far is not known, which is a skin more. Eq. search.23

@@ -46,6 +46,11 @@ struct ClockCut {
   std::size_t done = 0, of = 0;
 };
 
+struct SkinnedScore {
+  Score score;
+  std::vector<Score> by_skin;  // as each of the skins moves it by a standard error
+};
+
 struct FinalDesign {
   Point unit;
   bool flat = false;  // the surface without its texture, which `unit` still has
@@ -53,10 +58,10 @@ struct FinalDesign {
   Score searched, confirmed;
   std::vector<TaskAnswer> answers;  // behind the confirmed score, without their reports
   std::vector<Score> members;       // at each member of belief; empty: not asked for
-  // [skin] and [member][skin] As each of the skins behind the answers moves `confirmed` and
-  // `members` by a standard error; where `members` are.
+  // Where `members` are. [skin]: as each of the skins behind the answers moves `confirmed` by a
+  // standard error. few: the members on few skins by themselves, last the finger as it is.
   std::vector<Score> confirmed_by_skin;
-  std::vector<std::vector<Score>> members_by_skin;
+  std::vector<SkinnedScore> few;
   bool feasible = false, on_front = false;
   // "front/01"; "best" for the least-violating one where none keeps every constraint; empty for the
   // rest.

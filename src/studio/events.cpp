@@ -6,6 +6,8 @@ namespace papilla::studio {
 
 const char* name_of(Topic topic) {
   switch (topic) {
+    case Topic::Form:
+      return "form";
     case Topic::Session:
       return "session";
     case Topic::Shape:

@@ -14,7 +14,7 @@
 
 namespace papilla::studio {
 
-enum class Topic { Session, Shape, Response, Look, Refinement, Slopes, Search, Lab, Notice };
+enum class Topic { Form, Session, Shape, Response, Look, Refinement, Slopes, Search, Lab, Notice };
 const char* name_of(Topic topic);  // "session", ...
 
 struct Message {

@@ -221,6 +221,19 @@ std::vector<Change> changes_between(const Design& from, const Design& to) {
   return out;
 }
 
+Json take_moving(Json& rows) {
+  Json out = Json::array();
+  for (Json& row : rows) {
+    Json& moving = out.emplace_back(Json{{"path", row["path"]}});
+    for (const char* key : {"value", "shown", "place", "changed"}) {
+      if (!row.contains(key)) continue;
+      moving[key] = std::move(row[key]);
+      row.erase(key);
+    }
+  }
+  return out;
+}
+
 Json form_json(const Study& study, const Design& opened, const std::vector<Change>& changes) {
   const std::vector<FormKey> at_start = form_keys(opened);
   Json keys = Json::array();

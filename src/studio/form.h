@@ -42,9 +42,10 @@ Change checked_change(const std::vector<FormKey>& keys, const std::string& path,
 // The settings that make one design of another; a new kind of texture comes first.
 std::vector<Change> changes_between(const Design& from, const Design& to);
 
-// The form for the page: {"keys": [...], "kinds": [...]}. opened: the design that sliders take
-// their ranges from; variables: those of the study.
+// The rows of the form. opened: the design that sliders take their ranges from.
 nlohmann::ordered_json form_json(const Study& study, const Design& opened,
                                  const std::vector<Change>& changes);
+// Takes what follows the hand out of rows: the value of each and where it comes from.
+nlohmann::ordered_json take_moving(nlohmann::ordered_json& rows);
 
 }  // namespace papilla::studio

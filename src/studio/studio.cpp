@@ -231,7 +231,14 @@ void Studio::design_changed() {
   Wish wish{view.revision, view.study.design, {}, 0};
   for (const PinnedDesign& pin : view.pins) wish.pinned[pin.number] = study_of(pin.draft).design;
   evaluator_->wish(std::move(wish));
-  events_.tell(Topic::Session, session_json());
+  const std::lock_guard lock(telling_);
+  Json session = session_json(), form = std::move(session["keys"]);
+  session["keys"] = take_moving(form);
+  if (std::string now = form.dump(); now != form_told_) {
+    events_.tell(Topic::Form, now);
+    form_told_ = std::move(now);
+  }
+  events_.tell(Topic::Session, session.dump());
 }
 
 std::string Studio::changed(std::uint64_t revision) {
@@ -239,7 +246,7 @@ std::string Studio::changed(std::uint64_t revision) {
   return Json{{"revision", revision}}.dump();
 }
 
-std::string Studio::session_json() const {
+Json Studio::session_json() const {
   const SessionView view = session_.view();
   Json pins = Json::array();
   for (const PinnedDesign& p : view.pins) pins.push_back({{"number", p.number}, {"name", p.name}});
@@ -259,15 +266,14 @@ std::string Studio::session_json() const {
               {"steps", view.steps},
               {"done", view.done},
               {"pins", pins},
-              {"keys", form_json(view.study, view.opened, view.draft.changes)}}
-      .dump();
+              {"keys", form_json(view.study, view.opened, view.draft.changes)}};
 }
 
 std::string Studio::state() const {
   static const std::string kinds = kinds_json().dump(), words = words_json().dump();
   return fmt::format(
       R"({{"version":"{}","kinds":{},"words":{},"files":{},"session":{},"wish":{},"search":{},"lab":{}}})",
-      PAPILLA_VERSION, kinds, words, files_.list().dump(), session_json(),
+      PAPILLA_VERSION, kinds, words, files_.list().dump(), session_json().dump(),
       proposed_wish(session_.view().study, session_.wish()).dump(), desk_->json().dump(),
       lab_json());
 }

@@ -57,7 +57,7 @@ class Studio {
   void design_changed();
   std::string changed(std::uint64_t revision);
   std::string state() const;
-  std::string session_json() const;
+  nlohmann::ordered_json session_json() const;
   std::string lab_json() const;
 
   Events events_;
@@ -66,6 +66,8 @@ class Studio {
   Session session_;
   std::map<std::string, Route> routes_;
   std::mutex computing_;  // what takes seconds, one at a time
+  std::mutex telling_;    // of the session: pages get what moved, and the form when it changes
+  std::string form_told_;
   std::unique_ptr<SearchDesk> desk_;
   std::unique_ptr<LabDesk> lab_;
   std::unique_ptr<Evaluator> evaluator_;

@@ -352,48 +352,32 @@ TEST(Decision, AMemberMovesSizesByAFactorAndSpreadsByADifference) {
   EXPECT_NEAR(score.values[1], 0.5 + 0.07, 1e-12);
   EXPECT_NEAR(score.worst, 0.4 * 1.5, 1e-12);
   EXPECT_FALSE(f.members[1].ok);
-  EXPECT_FALSE(f.members[2].ok);              // belief has three members, the answer two
-  EXPECT_TRUE(f.members_by_skin[0].empty());  // no skins are known
+  EXPECT_FALSE(f.members[2].ok);  // belief has three members, the answer two
+  ASSERT_EQ(f.few.size(), 4u);    // and the finger as it is, by themselves
+  EXPECT_NEAR(f.few[0].score.values[1], there.objectives[1].value, 1e-12);
+  EXPECT_NEAR(f.few[3].score.worst, 0.2, 1e-12);
+  EXPECT_FALSE(f.few[2].score.ok);
+  EXPECT_TRUE(f.few[0].by_skin.empty());  // no skins are known
 }
 
-// The worst modulation is C m / o. A skin that moves all three by the same ratio moves it by that.
-TEST(Decision, ASkinMovesAMemberByWhatItMovesOfAllThreeNumbers) {
+// A skin moves a member by what it moves of its worst modulation alone.
+TEST(Decision, ASkinMovesAMemberByItsOwnSamples) {
   const Study study = believing(0.3);
   const StudyProblem problem(study);
   TaskAnswer confirmed = at(0, 0, 0.4), own = at(0, 0, 0.2), there = at(0, 0, 0.3);
-  const auto sampled = [](double value, const std::vector<double>& ratios) {
-    std::vector<double> out;
-    for (const double r : ratios) out.push_back(value * r);
-    return out;
-  };
-  const std::vector<double> common = {0.9, 1.1, 1, 1}, of_member = {1, 1, 0.8, 1.2};
-  confirmed.worst_samples = sampled(0.4, common);
-  own.worst_samples = sampled(0.2, common);
-  there.worst_samples = sampled(0.3, common);
-  const auto moves = [&](const TaskAnswer& member) {
-    const FinalDesign f = with_members(problem, confirmed, {member, own});
-    std::vector<double> out;
-    for (const Score& moved : f.members_by_skin.at(0))
-      out.push_back(moved.worst - f.members[0].worst);
-    return out;
-  };
+  there.worst_samples = {0.27, 0.33, 0.3, 0.3};
+  FinalDesign f = with_members(problem, confirmed, {there, own});
+  f.confirmed = problem.score(f.design, {confirmed});
+  ASSERT_EQ(f.few.at(0).by_skin.size(), 4u);
   const double tenth = 0.1 / std::sqrt(4 * 3.0);
-  std::vector<double> found = moves(there);
-  ASSERT_EQ(found.size(), 4u);
-  EXPECT_NEAR(found[0], -0.6 * tenth, 1e-12);
-  EXPECT_NEAR(found[1], 0.6 * tenth, 1e-12);
-  EXPECT_NEAR(found[2], 0, 1e-12);
-  there.worst_samples = sampled(0.3, of_member);
-  found = moves(there);
-  // What the confirmed number and the few skins have in common cancels.
-  EXPECT_NEAR(found[0], 0, 1e-12);
-  EXPECT_NEAR(found[2], -0.6 * 2 * tenth, 1e-12);
-  EXPECT_NEAR(found[3], 0.6 * 2 * tenth, 1e-12);
-  const MemberWorth worth = member_worth(problem, {with_members(problem, confirmed, {there, own})},
-                                         decision_rule(problem, ""), {});
-  ASSERT_EQ(worth.by_skin.at(0).at(0).size(), 4u);
-  EXPECT_NEAR(worth.by_skin[0][0][2], found[2], 1e-12);
-  EXPECT_TRUE(worth.by_skin[0][2].empty());  // no answer there
+  EXPECT_NEAR(f.few[0].by_skin[0].worst, 0.3 - 0.3 * tenth, 1e-12);
+  EXPECT_NEAR(f.few[0].by_skin[1].worst, 0.3 + 0.3 * tenth, 1e-12);
+  EXPECT_TRUE(f.few.back().by_skin.empty());
+  EXPECT_TRUE(f.confirmed_by_skin.empty());
+  // One design: what the levels differ by is taken off in full.
+  const MemberWorth worth = member_worth(problem, {f}, decision_rule(problem, ""), {});
+  EXPECT_NEAR(worth.worth.at(0).at(0), 0.4 * 0.3 / 0.2, 1e-12);
+  EXPECT_TRUE(std::isnan(worth.worth[0][2]));  // no answer there
 }
 
 }  // namespace

@@ -136,6 +136,40 @@ TEST(Prospects, MovesAreShrunkByWhatSkinsScatterThemBy) {
 }
 
 // All patches flood: a tenth of every worth is left, and that is not shrunk.
+// Levels that differ by what all designs share and, design by design, by what the member has too
+// (rough) or has not (rough as the finger is, smooth at the member): the first is taken off, the
+// second where skins move both levels' difference and the member together.
+TEST(Prospects, LevelsAreCombinedAsSkinsMoveThemTogether) {
+  const std::vector<double> fine = {1, 2, 3}, rough = {0.3, -0.2, -0.1};
+  const auto combined = [&](double shared) {
+    std::vector<SkinnedWorth> confirmed, few;
+    MemberWorth d = worth_of({1}, {{}, {}, {}});
+    for (std::size_t i = 0; i < 3; ++i) {
+      confirmed.push_back({fine[i], {0, 0}});
+      few.push_back({fine[i] + 5 + rough[i], {rough[i], -rough[i]}});
+      d.worth[i] = {fine[i] + 5 + 7 + shared * rough[i]};
+      d.by_skin.push_back({{shared * rough[i], -shared * rough[i]}});
+    }
+    combine_levels(confirmed, few, false, d);
+    return d;
+  };
+  for (const double shared : {0.0, 0.5, 1.0}) {
+    const MemberWorth d = combined(shared);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(d.worth[i][0], fine[i] + 7, 1e-12);
+      EXPECT_NEAR(d.by_skin[i][0][0], 0, 1e-12);
+    }
+  }
+  // Never more than the levels differ, nor the other way.
+  EXPECT_NEAR(combined(3).worth[0][0], fine[0] + 7 + 2 * rough[0], 1e-12);
+  EXPECT_NEAR(combined(-1).worth[0][0], fine[0] + 7 - rough[0], 1e-12);
+  // In proportion: the level doubles all, the member triples them.
+  MemberWorth d = worth_of({1}, {{6}, {12}});
+  d.by_skin = {{{}}, {{}}};
+  combine_levels({{1}, {2}}, {{2}, {4}}, true, d);
+  EXPECT_EQ(d.worth, (Matrix{{3}, {6}}));
+}
+
 TEST(Prospects, MovesInProportionAreAlike) {
   const std::vector<SkinnedWorth> own = {{0.1, {0.01, 0}}, {0.3, {0.03, 0}}};
   MemberWorth d = worth_of({1}, {{0.01}, {0.03}});

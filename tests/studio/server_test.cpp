@@ -248,6 +248,26 @@ TEST_F(Server, TellsAllPagesOfAChangeAndItsAnswer) {
   EXPECT_NE(third.read_until("\"262 nm\"", 20).find("\"262 nm\""), std::string::npos);
 }
 
+TEST_F(Server, TellsTheFormWhereItsRowsChangeAndElseWhatMovesAlone) {
+  Connection page(place_.port);
+  page.send(place_.own("GET", "events"));
+  const auto after = [&](const char* path, const char* body, const char* until) {
+    const std::size_t before = page.read_until("event: session", 20).size();
+    replied(place_, place_.own("POST", path, body));
+    return page.read_until(until, 60).substr(before);
+  };
+  EXPECT_NE(page.read_until("event: session", 20).find("event: form\ndata: [{\"path\""),
+            std::string::npos);
+  const std::string moved =
+      after("set", R"({"path":"texture.depth","value":"263 nm"})", "\"value\":\"263 nm\"");
+  EXPECT_EQ(moved.find("event: form"), std::string::npos) << moved;
+  EXPECT_EQ(moved.find("\"doc\""), std::string::npos);
+  const std::string other =
+      after("kind", R"({"kind":"pillar_array"})", "\"kind\":\"pillar_array\"");
+  EXPECT_NE(other.find("event: form"), std::string::npos);
+  EXPECT_NE(other.find("\"path\":\"texture.height\""), std::string::npos);
+}
+
 TEST_F(Server, ReportsASearchThatIsNotFinishedAsThat) {
   EXPECT_EQ(replied(place_, place_.own("GET", "report/searches/001")).status, 404);
   const Reply started = replied(

@@ -157,10 +157,11 @@ function build(k) {
   return box;
 }
 function update(k) {
-  const row = rows[k.path], now = JSON.stringify(k), shown = k.type === 'choice' || k.type === 'flag' ? k.value : people(k.value);
-  const kept = row.drawn === now && !row.touched && row.field.value === shown;
+  const row = rows[k.path], shown = k.type === 'choice' || k.type === 'flag' ? k.value : people(k.value);
+  const same = row.drawn && row.key.form === k.form && ['value', 'shown', 'place', 'changed'].every((moving) => row.key[moving] === k[moving]);
+  const kept = same && !row.touched && row.field.value === shown;
   row.key = k;
-  row.drawn = now;
+  row.drawn = true;
   if (kept) return;
   row.box.classList.toggle('changed', k.changed);
   row.about.textContent = `${k.doc}. ${k.type === 'number' || k.type === 'integer' ? `${round(k.low, 4)} to ${round(k.high, 4)} ${people(k.unit)}. ` : ''}${k.place}`;

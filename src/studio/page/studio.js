@@ -13,8 +13,15 @@ import { startWords } from './words.js';
 
 let session = null, file = '', kind = '';
 
+// The form's words are told when they change, the session with what follows the hand alone.
+let form = new Map();
+function showRows(rows) {
+  form = new Map(rows.map((row) => [row.path, row]));
+}
 function showSession(now) {
   if (session && now.revision < session.revision) return;
+  if (!now.keys.every((moving) => form.has(moving.path))) return;  // of a form that is newer: so is a session
+  now.keys = now.keys.map((moving) => ({ ...form.get(moving.path), ...moving, form: form.get(moving.path) }));
   session = now;
   $('title').textContent = now.title || 'Papilla studio';
   $('file').textContent = now.file + (now.changes.length ? ` · ${now.changes.length} changed` : '');
@@ -80,6 +87,7 @@ async function begin() {
   $('version').textContent = all.version;
   startWords(all.words);
   showKinds(all.kinds);
+  showRows(all.session.keys);
   showSession(all.session);
   showWish(all.wish);
   showSearch(all.search);
@@ -88,6 +96,7 @@ async function begin() {
   const last = {}, kept = (topic, show) => (what) => { last[topic] = () => show(what); show(what); };
   onLook(() => { dropCharts(); Object.values(last).forEach((again) => again()); });
   listen({
+    form: showRows,
     session: kept('session', showSession),
     shape: kept('shape', showShape),
     response: kept('response', told),
