@@ -3,7 +3,7 @@ import { $, colours } from '../plots/look.js';
 import { charts, draw } from '../plots/charts.js';
 import { curve, overHumidity } from '../plots/curves.js';
 import { fixed, round } from '../plots/numbers.js';
-import { table } from '../plots/tables.js';
+import { refreshTable, table } from '../plots/tables.js';
 import { ask } from './server.js';
 
 const levels = { first: 'first answer', draft: 'draft', design: 'design level' };
@@ -56,13 +56,13 @@ function showNumbers(r) {
   const margins = r.points.map((p) => p.oxide_margin).filter((v) => v !== null);
   if (margins.length) rows.push(['breakdown margin of the film', round(Math.min(...margins), 3)]);
   r.points.filter((p) => p.status !== 'ok').forEach((p) => rows.push([`at ${Math.round(100 * p.relative_humidity)} %`, p.status]));
-  table($('numbers'), null, rows, [1]);
+  refreshTable($('numbers'), null, rows, [1]);
 }
 
 // The curves for those who hear the page, or copy numbers.
 function showValues(points) {
   const driven = points.some((p) => p.modulation);
-  table($('values'), ['humidity', ...(driven ? ['modulation'] : []), 'drive off', ...(driven ? ['drive on'] : [])], points.map((p) => [`${round(100 * p.relative_humidity)} %`, ...(driven ? [of(p.modulation)] : []), of(p.F_off, 1e3, ' mN'), ...(driven ? [of(p.F_on, 1e3, ' mN')] : [])]), [1, 2, 3]);
+  refreshTable($('values'), ['humidity', ...(driven ? ['modulation'] : []), 'drive off', ...(driven ? ['drive on'] : [])], points.map((p) => [`${round(100 * p.relative_humidity)} %`, ...(driven ? [of(p.modulation)] : []), of(p.F_off, 1e3, ' mN'), ...(driven ? [of(p.F_on, 1e3, ' mN')] : [])]), [1, 2, 3]);
 }
 
 const pins = () => state.session ? state.session.pins : [];

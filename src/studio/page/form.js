@@ -156,13 +156,8 @@ function build(k) {
   rows[k.path] = row;
   return box;
 }
-function update(k) {
-  const row = rows[k.path], shown = k.type === 'choice' || k.type === 'flag' ? k.value : people(k.value);
-  const same = row.drawn && row.key.form === k.form && ['value', 'shown', 'place', 'changed'].every((moving) => row.key[moving] === k[moving]);
-  const kept = same && !row.touched && row.field.value === shown;
-  row.key = k;
-  row.drawn = true;
-  if (kept) return;
+// Beside the value of a row: where it comes from.
+function tell(row, k) {
   row.box.classList.toggle('changed', k.changed);
   row.about.textContent = `${k.doc}. ${k.type === 'number' || k.type === 'integer' ? `${round(k.low, 4)} to ${round(k.high, 4)} ${people(k.unit)}. ` : ''}${k.place}`;
   if (k.changed) {
@@ -171,6 +166,15 @@ function update(k) {
     back.addEventListener('click', () => ask('reset', { path: k.path }));
     row.about.append(back);
   }
+}
+function update(k) {
+  const row = rows[k.path], shown = k.type === 'choice' || k.type === 'flag' ? k.value : people(k.value);
+  const told = row.drawn && row.key.form === k.form && row.key.place === k.place && row.key.changed === k.changed;
+  const kept = told && row.key.value === k.value && row.key.shown === k.shown && !row.touched && row.field.value === shown;
+  row.key = k;
+  row.drawn = true;
+  if (kept) return;
+  if (!told) tell(row, k);
   // Not what the hand is at.
   if (row.held || performance.now() - row.touched < 600 || wait.busy && wait.next && wait.next.path === k.path) return;
   if (document.activeElement !== row.field || row.field.tagName === 'SELECT') row.field.value = shown;

@@ -45,6 +45,9 @@ function drawShape() {
 }
 
 function facts(box, rows) {
+  const now = JSON.stringify(rows);
+  if (box.dataset.facts === now) return;
+  box.dataset.facts = now;
   box.textContent = '';
   rows.filter(Boolean).forEach(([name, value, over]) => {
     const item = document.createElement('li'), key = document.createElement('span');

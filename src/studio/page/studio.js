@@ -1,5 +1,5 @@
 // The studio: what the server tells goes to the parts of the page, what the hand does goes back.
-import { $, onLook } from '../plots/look.js';
+import { $, onLook, setText } from '../plots/look.js';
 import { charts, dropCharts } from '../plots/charts.js';
 import { answered, drawn, latency, showForm, showKinds, showSlopes, startFilter, startSlopes } from './form.js';
 import { showAnswer, showSessionPins } from './answer.js';
@@ -23,8 +23,8 @@ function showSession(now) {
   if (!now.keys.every((moving) => form.has(moving.path))) return;  // of a form that is newer: so is a session
   now.keys = now.keys.map((moving) => ({ ...form.get(moving.path), ...moving, form: form.get(moving.path) }));
   session = now;
-  $('title').textContent = now.title || 'Papilla studio';
-  $('file').textContent = now.file + (now.changes.length ? ` · ${now.changes.length} changed` : '');
+  setText($('title'), now.title || 'Papilla studio');
+  setText($('file'), now.file + (now.changes.length ? ` · ${now.changes.length} changed` : ''));
   document.title = `${now.title || now.file} · Papilla studio`;
   $('undo').disabled = !now.undo;
   $('redo').disabled = !now.redo;

@@ -1,5 +1,7 @@
 // The page's own look: its elements by name, its colours in the light or the dark that the reader has chosen.
 export const $ = (id) => document.getElementById(id);
+// Only where it is another: the same text again would be laid out again.
+export const setText = (element, text) => { if (element.textContent !== text) element.textContent = text; };
 const scheme = matchMedia('(prefers-color-scheme: dark)');
 export let dark;
 export const ink = (name) => getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
