@@ -250,6 +250,7 @@ void combine_levels(const std::vector<SkinnedWorth>& confirmed,
       together += std::inner_product(x.begin(), x.end(), y.begin(), 0.0);
       alone += squares(y);
     }
+    // Eq. search.25
     const double corrected = alone > 0 ? std::clamp(together / alone, 0.0, 1.0) : 1;
     for (std::size_t k = 0; k < known.size(); ++k) {
       const std::size_t i = known[k];
@@ -342,7 +343,7 @@ SettledSkins settled_skins(const MemberWorth& designs, const BeliefRisk& risk, d
     }
     const std::vector<Prospect> found = prospects(there, risk);
     const Prospect& choice = found[chosen(found, p_limits)];
-    out.p_best += choice.p_best / draws;
+    out.p_best += choice.p_best / draws;  // Eq. search.24
     out.regret += choice.regret / draws;
   }
   return out;
