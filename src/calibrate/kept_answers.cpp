@@ -37,7 +37,6 @@ std::vector<Estimate> KeptAnswers::get(const std::string& question, std::size_t 
     if (answer.size() == size) return answer;
   }
   std::vector<Estimate> answer = make();
-  ++made_;
   unfinished_.keep(key, written(answer));
   return answer;
 }

@@ -21,7 +21,6 @@ class KeptAnswers {
       : unfinished_(folder, problem) {}
 
   int known() const { return unfinished_.known(); }
-  int made() const { return made_; }  // by `get`, not found in the file
   const std::string& file() const { return unfinished_.file(); }
   // The answer of `size` numbers to `question`, by `make` where it is not kept. Anybody can have
   // written the file: an answer of another size is none.
@@ -31,7 +30,6 @@ class KeptAnswers {
 
  private:
   Unfinished unfinished_;
-  int made_ = 0;
 };
 
 }  // namespace papilla::calibrate

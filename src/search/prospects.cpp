@@ -335,13 +335,12 @@ SettledSkins settled_skins(const MemberWorth& designs, const BeliefRisk& risk, d
   RandomStream random(2, "decision");
   SettledSkins out;
   for (int draw = 0; draw < draws; ++draw) {
-    MemberWorth there = designs;
+    MemberWorth drawn;
     if (skins >= 2) {
       const std::vector<double> z = drawn_skins(random, skins);  // of all members at once
-      there = {};
-      for (std::size_t m = 0; m < designs.weights.size(); ++m) add_draw(designs, m, z, there);
+      for (std::size_t m = 0; m < designs.weights.size(); ++m) add_draw(designs, m, z, drawn);
     }
-    const std::vector<Prospect> found = prospects(there, risk);
+    const std::vector<Prospect> found = prospects(skins < 2 ? designs : drawn, risk);
     const Prospect& choice = found[chosen(found, p_limits)];
     out.p_best += choice.p_best / draws;  // Eq. search.24
     out.regret += choice.regret / draws;
