@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -221,14 +223,21 @@ std::vector<Change> changes_between(const Design& from, const Design& to) {
   return out;
 }
 
-Json take_moving(Json& rows) {
+std::optional<Json> moved_since(const Json& told, const Json& rows) {
+  constexpr std::array<std::string_view, 4> follows_the_hand{"value", "shown", "place", "changed"};
+  if (told.size() != rows.size()) return std::nullopt;
   Json out = Json::array();
-  for (Json& row : rows) {
-    Json& moving = out.emplace_back(Json{{"path", row["path"]}});
-    for (const char* key : {"value", "shown", "place", "changed"}) {
-      if (!row.contains(key)) continue;
-      moving[key] = std::move(row[key]);
-      row.erase(key);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Json &before = told[i], &now = rows[i];
+    if (before == now) continue;
+    if (before.size() != now.size()) return std::nullopt;
+    Json& moved = out.emplace_back(Json{{"path", now["path"]}});
+    for (const auto& [key, value] : now.items()) {
+      if (before.value(key, Json()) == value) continue;
+      if (std::find(follows_the_hand.begin(), follows_the_hand.end(), key) ==
+          follows_the_hand.end())
+        return std::nullopt;
+      moved[key] = value;
     }
   }
   return out;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,9 @@ std::vector<Change> changes_between(const Design& from, const Design& to);
 // The rows of the form. opened: the design that sliders take their ranges from.
 nlohmann::ordered_json form_json(const Study& study, const Design& opened,
                                  const std::vector<Change>& changes);
-// Takes what follows the hand out of rows: the value of each and where it comes from.
-nlohmann::ordered_json take_moving(nlohmann::ordered_json& rows);
+// Of the rows whose value, or where it comes from, is another than the page was told: just that,
+// with their path. None: the rows or their words are others, the page needs all of them.
+std::optional<nlohmann::ordered_json> moved_since(const nlohmann::ordered_json& told,
+                                                  const nlohmann::ordered_json& rows);
 
 }  // namespace papilla::studio

@@ -232,12 +232,14 @@ void Studio::design_changed() {
   for (const PinnedDesign& pin : view.pins) wish.pinned[pin.number] = study_of(pin.draft).design;
   evaluator_->wish(std::move(wish));
   const std::lock_guard lock(telling_);
-  Json session = session_json(), form = std::move(session["keys"]);
-  session["keys"] = take_moving(form);
-  if (std::string now = form.dump(); now != form_told_) {
-    events_.tell(Topic::Form, now);
-    form_told_ = std::move(now);
+  Json session = session_json(), rows = std::move(session["keys"]);
+  std::optional<Json> moved = moved_since(form_told_, rows);
+  if (!moved) {
+    form_told_ = std::move(rows);
+    events_.tell(Topic::Form, Json{{"form", ++forms_told_}, {"keys", form_told_}}.dump());
   }
+  session["form"] = forms_told_;
+  session["keys"] = moved.value_or(Json::array());
   events_.tell(Topic::Session, session.dump());
 }
 

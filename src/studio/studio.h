@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "base/rooms.h"
@@ -66,8 +67,10 @@ class Studio {
   Session session_;
   std::map<std::string, Route> routes_;
   std::mutex computing_;  // what takes seconds, one at a time
-  std::mutex telling_;    // of the session: pages get what moved, and the form when it changes
-  std::string form_told_;
+  // Of the session: pages get what is another than in the form that they were told.
+  std::mutex telling_;
+  nlohmann::ordered_json form_told_;
+  int forms_told_ = 0;
   std::unique_ptr<SearchDesk> desk_;
   std::unique_ptr<LabDesk> lab_;
   std::unique_ptr<Evaluator> evaluator_;

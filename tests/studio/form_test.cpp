@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "config/describe.h"
 #include "design/study.h"
 #include "studio/safety.h"
 #include "tests/temporary.h"
@@ -139,6 +140,31 @@ TEST(FormSliders, GoAroundTheValueThatTheFileHad) {
     }
     EXPECT_TRUE(found);
   }
+}
+
+TEST(FormRows, ThatMovedMakeTheNewFormOfTheOneBefore) {
+  const Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_samples/a3h600.toml");
+  const auto rows_with = [&](const char* path, double si, const char* text) {
+    Study at = study;
+    set_number(at.design, path, si);
+    return form_json(at, study.design, {{path, text}});
+  };
+  const auto told = form_json(study, study.design, {});
+  auto patched = told;
+  const auto now = rows_with("texture.depth", 700e-9, "700 nm");
+  const auto moved = moved_since(told, now);
+  ASSERT_TRUE(moved);
+  ASSERT_EQ(moved->size(), 1U) << *moved;
+  for (auto& row : patched) {
+    if (row["path"] == (*moved)[0]["path"]) row.update((*moved)[0]);
+  }
+  EXPECT_EQ(patched, now);
+  EXPECT_EQ(moved_since(told, told), nlohmann::ordered_json::array());
+  // Beyond its slider, which ends elsewhere now: other words.
+  EXPECT_FALSE(moved_since(told, rows_with("texture.depth", 3000e-9, "3000 nm")));
+  Study other = study;
+  other.design.texture = default_texture(0);
+  EXPECT_FALSE(moved_since(told, form_json(other, study.design, {})));
 }
 
 // Letters that a name may not have, one by one; up to two hundred of the others.

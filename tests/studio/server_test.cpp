@@ -256,12 +256,13 @@ TEST_F(Server, TellsTheFormWhereItsRowsChangeAndElseWhatMovesAlone) {
     replied(place_, place_.own("POST", path, body));
     return page.read_until(until, 60).substr(before);
   };
-  EXPECT_NE(page.read_until("event: session", 20).find("event: form\ndata: [{\"path\""),
+  EXPECT_NE(page.read_until("event: session", 20).find("event: form\ndata: {\"form\":1"),
             std::string::npos);
   const std::string moved =
       after("set", R"({"path":"texture.depth","value":"263 nm"})", "\"value\":\"263 nm\"");
   EXPECT_EQ(moved.find("event: form"), std::string::npos) << moved;
   EXPECT_EQ(moved.find("\"doc\""), std::string::npos);
+  EXPECT_EQ(moved.find("\"path\":\"surface.contact_angle\""), std::string::npos);
   const std::string other =
       after("kind", R"({"kind":"pillar_array"})", "\"kind\":\"pillar_array\"");
   EXPECT_NE(other.find("event: form"), std::string::npos);

@@ -13,15 +13,15 @@ import { startWords } from './words.js';
 
 let session = null, file = '', kind = '';
 
-// The form's words are told when they change, the session with what follows the hand alone.
-let form = new Map();
-function showRows(rows) {
-  form = new Map(rows.map((row) => [row.path, row]));
+// The form is told when its rows or their words change, a session with what is another than in its form.
+let told = { form: 0, keys: [] };
+function showRows(form) {
+  told = form;
 }
-function showSession(now) {
-  if (session && now.revision < session.revision) return;
-  if (!now.keys.every((moving) => form.has(moving.path))) return;  // of a form that is newer: so is a session
-  now.keys = now.keys.map((moving) => ({ ...form.get(moving.path), ...moving, form: form.get(moving.path) }));
+function showSession(news) {
+  if (session && news.revision < session.revision) return;
+  if (news.form !== told.form) return;  // one of the form at hand follows
+  const moved = new Map(news.keys.map((k) => [k.path, k])), now = { ...news, keys: told.keys.map((k) => ({ ...k, ...moved.get(k.path), form: told.form })) };
   session = now;
   setText($('title'), now.title || 'Papilla studio');
   setText($('file'), now.file + (now.changes.length ? ` · ${now.changes.length} changed` : ''));
@@ -37,7 +37,7 @@ function showSession(now) {
   [file, kind] = [now.file, now.kind];
 }
 
-function told(answer) {
+function showResponse(answer) {
   if (session && answer.revision < session.revision && answer.step !== 'first') return;
   answered(answer.revision);
   showAnswer(answer);
@@ -87,8 +87,8 @@ async function begin() {
   $('version').textContent = all.version;
   startWords(all.words);
   showKinds(all.kinds);
-  showRows(all.session.keys);
-  showSession(all.session);
+  showRows({ form: 0, keys: all.session.keys });
+  showSession({ ...all.session, form: 0 });
   showWish(all.wish);
   showSearch(all.search);
   showLab(all.lab);
@@ -99,7 +99,7 @@ async function begin() {
     form: showRows,
     session: kept('session', showSession),
     shape: kept('shape', showShape),
-    response: kept('response', told),
+    response: kept('response', showResponse),
     look: showLook,
     refinement,
     slopes: showSlopes,
