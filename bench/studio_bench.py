@@ -1,20 +1,15 @@
-"""The studio measured: studio_bench.py PROGRAM latency|bands OUT.csv [COUNT].
+"""The studio measured: studio_bench.py PROGRAM OUT.csv [EVENTS].
 
-latency: from the event of a slider to the drawn curve, in headless Chromium on this machine; 300 events over flat glass, holes, a particle film and holes
+From the event of a slider to the drawn curve, in headless Chromium on this machine; 300 events over flat glass, holes, a particle film and holes
 under a film, without and as many with a search running, each once the design at hand was refined. Beside it the processor time that the studio itself spends
-on an event, which other work on the machine does not change. bands: positions of sliders drawn by a fixed seed, the first answer's band against the refined
-value at each humidity.
+on an event, which other work on the machine does not change.
 """
-import json
-import math
 import os
 import random
 import shutil
 import sys
 import tempfile
 import time
-import urllib.error
-import urllib.request
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tests", "studio"))
 from browser import TREE, Browser, Studio, go, until  # noqa: E402
@@ -102,71 +97,5 @@ def latency(out, count):
             file.write(",".join(str(v) if not isinstance(v, float) else f"{v:.0f}" for v in row) + "\n")
 
 
-class Talk:
-    """A page without a browser: what it sets, and what it is told."""
-
-    def __init__(self, studio):
-        self.root = studio.address
-        self.opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
-        self.events = self.opener.open(self.root + "events", timeout=600)
-
-    def post(self, path, body):
-        request = urllib.request.Request(self.root + path, json.dumps(body).encode(), {"Content-Type": "application/json"})
-        return json.load(self.opener.open(request, timeout=60))
-
-    def answer(self, revision, step):
-        topic = ""
-        for line in self.events:
-            text = line.decode().rstrip("\n")
-            if text.startswith("event: "):
-                topic = text[7:]
-            elif text.startswith("data: ") and topic == "response":
-                data = json.loads(text[6:])
-                if data["revision"] == revision and data["step"] == step:
-                    return data["response"]
-
-
-# Positions are drawn between these shares of the value that the design has.
-RANGE = (0.6, 1.6)
-
-
-def bands(out, count):
-    draw = random.Random(2611)  # none of the positions that the law was set on
-    folder = tempfile.mkdtemp()
-    rows, inside, readings = [], 0, 0
-    positions = dict.fromkeys(KEYS, count // len(KEYS))
-    for kind in ["flat", "particles"][:count % len(KEYS)]:
-        positions[kind] += 1
-    for kind, keys in KEYS.items():
-        studio = Studio(tempfile.mkdtemp(dir=folder), design(folder, kind))
-        talk = Talk(studio)
-        state = json.load(talk.opener.open(talk.root + "state"))["session"]
-        start = {k["path"]: k for k in state["keys"]}
-        talk.answer(state["revision"], "design")
-        for n in range(positions[kind]):
-            key = start[keys[n % len(keys)]]
-            value = key["shown"] * math.exp(draw.uniform(math.log(RANGE[0]), math.log(RANGE[1])))
-            try:
-                revision = talk.post("set", {"path": key["path"], "value": f"{value:.4g} {key['unit']}"})["revision"]
-            except urllib.error.HTTPError:  # the design ends before
-                continue
-            first, fine = talk.answer(revision, "first"), talk.answer(revision, "design")
-            for a, b in zip(first["points"], fine["points"]):
-                if not (a["modulation"] and b["modulation"]):  # beyond breakdown
-                    continue
-                m, se, refined = a["modulation"]["value"], a["modulation"]["se"], b["modulation"]["value"]
-                ok = abs(refined - m) <= 2 * se
-                inside += ok
-                readings += 1
-                rows.append(f"{kind},{key['path']},{value:.4g} {key['unit']},{100 * a['relative_humidity']:.0f},{m:.4f},{2 * se:.4f},{refined:.4f},{'yes' if ok else 'no'}")
-            print(rows[-1], f"{inside}/{readings}", flush=True)
-        studio.close()
-    shutil.rmtree(folder, ignore_errors=True)
-    with open(out, "w") as file:
-        file.write(f"# refined values inside the first band of two standard errors: {inside} of {readings}\n")
-        file.write("texture,key,value,humidity [%],first modulation,half band,refined modulation,inside\n")
-        file.write("\n".join(rows) + "\n")
-
-
 if __name__ == "__main__":
-    {"latency": latency, "bands": bands}[sys.argv[2]](sys.argv[3], int(sys.argv[4]) if len(sys.argv) > 4 else {"latency": 300, "bands": 50}[sys.argv[2]])
+    latency(sys.argv[2], int(sys.argv[3]) if len(sys.argv) > 3 else 300)

@@ -301,7 +301,9 @@ std::vector<Comparison> Evaluator::comparisons(const Wish& wish, Step step) {
   for (const auto& [number, design] : wish.pinned) {
     const std::optional<Response> theirs = response_at(design, step);
     if (!theirs || !ours) continue;
-    const double drift = step == Step::First ? difference_drift(*anchor_, design, wish.design) : 0;
+    const double drift = step == Step::First ? difference_drift(known(design).by_step.at(step),
+                                                                known(wish.design).by_step.at(step))
+                                             : 0;
     for (const MetricExpression& e : compared) {
       const auto a = summarise(e.summary, e.metric, *ours);
       const auto b = summarise(e.summary, e.metric, *theirs);

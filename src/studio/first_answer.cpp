@@ -4,16 +4,15 @@
 #include <array>
 #include <cmath>
 
-#include "base/check.h"
 #include "geometry/texture.h"
+#include "metrics/metrics.h"
+#include "numerics/statistics.h"
 #include "studio/form.h"
 
 namespace papilla::studio {
 namespace {
 
-using Quantity = Measured PointQuantities::*;
-constexpr std::array<Quantity, 3> kCarried{
-    &PointQuantities::friction_off, &PointQuantities::friction_on, &PointQuantities::modulation};
+constexpr std::array<QuantityMetric, 3> kCarried{kFriction, kFrictionOn, kModulation};
 
 // A quick level, and what a refined answer usually is of its own: of kCarried.
 struct QuickLevel {
@@ -22,12 +21,13 @@ struct QuickLevel {
 };
 constexpr QuickLevel kCoarse{64, {0.69, 0.66, 0.88}};
 constexpr QuickLevel kFine{128, {0.84, 0.82, 0.94}};  // where features are narrow
-constexpr int kSkins = 8;
+constexpr int kSkins = 6;
 constexpr double kFewPixels = 4;  // of the smallest feature: its area is not its own below
 
-// Relative, one standard error (docs/theory/studio.md): what the ratio changes with the distance;
-// the more, the less usual it is; what of it no distance explains; how far the usual one is off.
-constexpr double kDrift = 0.06, kUnusual = 0.5, kFloor = 0.012;
+// One standard error (docs/theory/studio.md): of the ratio of two levels, relative to what the
+// quick number moved by and to what its skins leave open of that, and what is left where nothing
+// moved; how far the usual ratio is off.
+constexpr double kOfMove = 0.16, kOfSkins = 1.5, kFloor = 0.012;
 constexpr std::array<double, 3> kSpread{0.06, 0.07, 0.125};
 
 double root(double a, double b) { return std::hypot(a, b); }
@@ -38,26 +38,26 @@ const QuickLevel& quick_level(const Design& design) {
   return narrow ? kFine : kCoarse;
 }
 
-// Of the ratio of two levels at this distance from where it is known.
-double drift(double ratio, double usual, double distance) {
-  const double unusual = ratio > 0 ? std::abs(std::log(ratio / usual)) : 1;
-  return root(kFloor, (kDrift + kUnusual * unusual) * distance);
+// Of the ratio of two levels, where the quick number moved so from where it is known. Eq. studio.2
+double drift(const QuickMove& moved) {
+  return root(kFloor, root(kOfMove * moved.logarithm, kOfSkins * moved.error));
 }
 
 // By Eq. studio.1 and studio.2; true where the anchor has the number.
-bool carry(const Measured& fine, const Measured& coarse, double usual, double distance,
+bool carry(const Anchor& anchor, const Response& quick, std::size_t i, const QuantityMetric& number,
            Measured& m) {
+  const Measured &fine = anchor.refined.points[i].*number.quantity,
+                 &coarse = anchor.quick.points[i].*number.quantity;
   if (coarse.value == 0 || fine.value == 0) return false;
-  const double ratio = fine.value / coarse.value;
-  m.value *= ratio;
+  m.value *= fine.value / coarse.value;
   const double share = std::abs(m.value / fine.value);
   m.parts = fine.parts;
   m.parts.sampling *= share;
   for (const ErrorOrigin& origin : kErrorOrigins) {
     if (std::optional<double>& part = m.parts.*origin.part) *part *= share;
   }
-  m.parts.method =
-      root(m.parts.method.value_or(0), drift(ratio, usual, distance) * std::abs(m.value));
+  m.parts.method = root(m.parts.method.value_or(0),
+                        drift(quick_move(i, number, anchor.quick, quick)) * std::abs(m.value));
   return true;
 }
 
@@ -82,24 +82,30 @@ Fidelity quick_fidelity(const Design& design) {
   return out;
 }
 
-std::optional<double> distance(const Design& from, const Design& to) {
-  const std::vector<FormKey> a = form_keys(from), b = form_keys(to);
-  if (a.size() != b.size()) return std::nullopt;
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (a[i].path != b[i].path) return std::nullopt;
-    if (a[i].value == b[i].value || a[i].type == KeyType::Text) continue;
-    if (a[i].type != KeyType::Number) return std::nullopt;
-    const double ratio = b[i].shown / a[i].shown;
-    sum += ratio > 0 && std::isfinite(ratio) ? std::abs(std::log(ratio)) : 1;
-  }
-  return sum;
+bool carries(const Anchor& anchor, const Design& design) {
+  if (anchor.refined.driven != design.drive.driven() ||
+      quick_fidelity(design) != quick_fidelity(anchor.design))
+    return false;
+  const std::vector<FormKey> a = form_keys(anchor.design), b = form_keys(design);
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const FormKey& x, const FormKey& y) {
+    const bool may_differ = y.type == KeyType::Number || y.type == KeyType::Text;
+    return x.path == y.path && (x.value == y.value || may_differ);
+  });
 }
 
-bool carries(const Anchor& anchor, const Design& design) {
-  return anchor.refined.driven == design.drive.driven() &&
-         quick_fidelity(design) == quick_fidelity(anchor.design) &&
-         distance(anchor.design, design).has_value();
+QuickMove quick_move(std::size_t point, const QuantityMetric& number, const Response& from,
+                     const Response& to) {
+  const double before = (from.points[point].*number.quantity).value,
+               now = (to.points[point].*number.quantity).value;
+  QuickMove out;
+  if (before == now) return out;
+  out.logarithm = before * now > 0 ? std::log(now / before) : 1;
+  if (before == 0 || now == 0) return out;
+  const std::vector<double> were = error_moves(error_samples_at(point, number, from).sampling),
+                            are = error_moves(error_samples_at(point, number, to).sampling);
+  for (std::size_t skin = 0; skin < std::min(were.size(), are.size()); ++skin)
+    out.error = root(out.error, are[skin] / now - were[skin] / before);
+  return out;
 }
 
 Response first_answer(const Response& quick, const Design& design,
@@ -107,30 +113,22 @@ Response first_answer(const Response& quick, const Design& design,
   Response out = quick;
   const QuickLevel& level = quick_level(design);
   const bool carried = anchor && carries(*anchor, design);
-  const double away = carried ? *distance(anchor->design, design) : 0;
   for (std::size_t i = 0; i < out.points.size(); ++i) {
     ResponsePoint& point = out.points[i];
     for (std::size_t k = 0; k < kCarried.size(); ++k) {
-      const Quantity q = kCarried[k];
-      const bool known = carried && carry(anchor->refined.points[i].*q, anchor->quick.points[i].*q,
-                                          level.usual[k], away, point.*q);
-      if (!known)
-        state_alone(out.plan, point.field_error.has_value(), level.usual[k], kSpread[k], point.*q);
+      Measured& m = point.*kCarried[k].quantity;
+      if (carried && carry(*anchor, quick, i, kCarried[k], m)) continue;
+      state_alone(out.plan, point.field_error.has_value(), level.usual[k], kSpread[k], m);
     }
   }
   return out;
 }
 
-double difference_drift(const Anchor& anchor, const Design& from, const Design& to) {
-  const auto away = distance(from, to);
-  PAPILLA_CHECK(away, "designs that one anchor carries");
-  const std::size_t k = anchor.refined.driven ? kCarried.size() - 1 : 0;
+double difference_drift(const Response& from, const Response& to) {
+  const QuantityMetric number = to.driven ? kModulation : kFriction;
   double most = 0;
-  for (std::size_t i = 0; i < anchor.refined.points.size(); ++i) {
-    const double fine = (anchor.refined.points[i].*kCarried[k]).value,
-                 coarse = (anchor.quick.points[i].*kCarried[k]).value;
-    if (coarse != 0) most = std::max(most, drift(fine / coarse, quick_level(to).usual[k], *away));
-  }
+  for (std::size_t i = 0; i < to.points.size(); ++i)
+    most = std::max(most, drift(quick_move(i, number, from, to)));
   return most;
 }
 

@@ -2,11 +2,13 @@
 // design nearby, with a band that says what that may miss.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "base/rooms.h"
 #include "design/design.h"
 #include "forward/response.h"
+#include "metrics/metric.h"
 
 namespace papilla::studio {
 
@@ -20,12 +22,17 @@ struct Anchor {
   Response quick, refined;
 };
 
-// How far one design is from another: the sum over keys of |ln(value / value)|, 1 for a number that
-// is or was 0. Nothing where they differ by more than numbers: other kinds, choices, humidities.
-std::optional<double> distance(const Design& from, const Design& to);
-
-// Whether the anchor's ratio of the two levels says something about this design.
+// Whether the anchor's ratio of the two levels says something about this design: that differs in
+// numbers alone, not in its kind, choices or humidities.
 bool carries(const Anchor& anchor, const Design& design);
+
+// How a quick number moved from one design to another: ln(q / q), and what its skins leave open of
+// that, one standard error; 1 where it changed its sign.
+struct QuickMove {
+  double logarithm = 0, error = 0;
+};
+QuickMove quick_move(std::size_t point, const QuantityMetric& number, const Response& from,
+                     const Response& to);
 
 // Modulation and friction as a refined answer would have them, with what the quick one leaves open
 // in their errors: by the ratio of an anchor that carries the design (Eq. studio.1, studio.2), else
@@ -33,8 +40,8 @@ bool carries(const Anchor& anchor, const Design& design);
 Response first_answer(const Response& quick, const Design& design,
                       const std::optional<Anchor>& anchor);
 
-// Of the difference of two first answers that the anchor carries: relative to their values, one
-// standard error. Eq. studio.4
-double difference_drift(const Anchor& anchor, const Design& from, const Design& to);
+// Of the difference of two first answers that one anchor carries, by their quick ones: relative to
+// their values, one standard error. Eq. studio.4
+double difference_drift(const Response& from, const Response& to);
 
 }  // namespace papilla::studio
