@@ -20,6 +20,7 @@ let gesture = 1, shape = '', atHand = 0;  // revision of the session that is sho
 const wait = { busy: false, next: null, timer: 0, revision: Infinity };
 export const latency = { events: [], done: [] };
 let asked = [];  // { revision, times } that wait to be drawn
+export const unanswered = () => wait.busy || asked.length > 0;
 
 function send(path, value, time, slider = false) {
   if (wait.busy) {

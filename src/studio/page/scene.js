@@ -5,7 +5,7 @@ import { alongLine } from '../plots/curves.js';
 import { drawMap, heightLine, mapFigures, sectionRow } from '../plots/maps.js';
 import { micrometres, round } from '../plots/numbers.js';
 import { showSolid, startSolid } from '../plots/solid.js';
-import { people } from './form.js';
+import { people, unanswered } from './form.js';
 import { post } from './server.js';
 import { takeableMap } from './take.js';
 
@@ -17,15 +17,18 @@ export function startScene() {
   $('rh').addEventListener('change', () => { state.shown = -1; fetchMaps(); });
 }
 
-// Curves come first: the picture of a texture that moves waits for a moment without answers, though not for long; where
+// Curves come first: the picture of a texture that moves waits until no answer is waited for, though not for long; where
 // drawing is slow (no graphics processor), so long that it takes a thirtieth of the time.
-const waiting = { shape: null, timer: 0, since: 0, drawing: 0 };
+const waiting = { shape: null, timer: 0, since: 0, drawing: 0 }, still = 120;
 export function showShape(shape) {
-  const now = performance.now(), still = 120, longest = Math.max(400, 30 * waiting.drawing);
-  if (!waiting.shape) waiting.since = now;
+  if (!waiting.shape) waiting.since = performance.now();
   waiting.shape = shape;
   clearTimeout(waiting.timer);
-  waiting.timer = setTimeout(drawShape, Math.max(0, Math.min(Math.max(still, waiting.drawing), waiting.since + longest - now)));
+  waiting.timer = setTimeout(drawWhenStill, still);
+}
+function drawWhenStill() {
+  if (unanswered() && performance.now() < waiting.since + Math.max(400, 30 * waiting.drawing)) waiting.timer = setTimeout(drawWhenStill, still);
+  else drawShape();
 }
 function drawShape() {
   const begun = performance.now();

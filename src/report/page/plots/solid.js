@@ -5,14 +5,16 @@ import { micrometres, round, roundLength } from './numbers.js';
 export const solid = { ready: false, radius: 1.13, zoom: 1, stretch: 0, section: 0 };  // stretch 0: as the heights ask for; section: what of the width is cut away
 export function startSolid() {
   const box = $('solid');
-  const probe = document.createElement('canvas');
-  if (!(probe.getContext('webgl') || probe.getContext('experimental-webgl'))) {
+  const draws = (how) => document.createElement('canvas').getContext('webgl', how);
+  if (!draws()) {
     const p = document.createElement('p');
     p.textContent = 'This browser draws no 3-D graphics; the picture from above shows the same heights.';
     box.appendChild(p);
     return;
   }
-  solid.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+  // Without a graphics processor smooth edges take longer than all the rest.
+  const antialias = Boolean(draws({ failIfMajorPerformanceCaveat: true }));
+  solid.renderer = new THREE.WebGLRenderer({ antialias, preserveDrawingBuffer: true });
   solid.renderer.setClearColor(ink('tint'));
   solid.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
   solid.renderer.domElement.setAttribute('aria-hidden', 'true');
@@ -82,7 +84,8 @@ function turnBy(around, over) {
 export function render() {
   if (!solid.ready) return;
   const box = $('solid'), w = box.clientWidth, h = box.clientHeight;
-  solid.renderer.setSize(w, h);
+  const drawn = solid.renderer.getSize(new THREE.Vector2());
+  if (drawn.x !== w || drawn.y !== h) solid.renderer.setSize(w, h);  // which clears its buffers
   solid.camera.aspect = w / h;
   // As far off as the texture fits in, however it is turned: its corners go round in a circle.
   const away = solid.radius / solid.zoom / (Math.tan(solid.camera.fov / 2 * Math.PI / 180) * Math.min(1, w / h));
