@@ -68,6 +68,12 @@ Design first_of(RandomStream& random, const std::string& designs, std::size_t gr
       read_design(designs + (film ? "/m3_glass/directional.toml" : "/m3_samples/a3h600.toml"));
   const Texture texture = default_texture(all[group % all.size()]);
   if (texture_name(texture) != texture_name(out.texture)) out.texture = texture;
+  if (group % 3 == 2) {  // narrow
+    for (const std::string& path : texture_numbers(out)) {
+      const DesignStep step = design_step(out, path, 0.7);
+      if (step.unit == "um") set_number(out, path, step.down);
+    }
+  }
   for (int n = 0; n < 3; ++n) move(random, out);
   return out;
 }
@@ -105,11 +111,12 @@ class Table {
         if (fine == 0 || answer.value == 0) continue;
         const double z = (answer.value - fine) / answer.se();
         const QuickMove moved = from ? quick_move(i, n.metric, from->quick, d.quick) : QuickMove{};
-        rows_ += fmt::format("{},{},{},{},{:.0f},{},{:.5g},{:.5g},{:.5g},{:.5g},{:.4g},{:.4g},{}\n",
-                             group, texture_name(d.design.texture), from ? d.moved : "",
-                             from ? "carried" : "alone", 100 * first.points[i].relative_humidity,
-                             n.name, answer.value, answer.se(), fine, at(d.quick).value,
-                             moved.logarithm, moved.error, std::abs(z) <= 2 ? "yes" : "no");
+        rows_ += fmt::format(
+            "{},{},{},{},{},{:.0f},{},{:.5g},{:.5g},{:.5g},{:.5g},{:.4g},{:.4g},{}\n", group,
+            texture_name(d.design.texture), quick_fidelity(d.design).grid, from ? d.moved : "",
+            from ? "carried" : "alone", 100 * first.points[i].relative_humidity, n.name,
+            answer.value, answer.se(), fine, at(d.quick).value, moved.logarithm, moved.error,
+            std::abs(z) <= 2 ? "yes" : "no");
         for (const std::string& of :
              {std::string(n.name),
               fmt::format("{} at {:.0f} %", n.name, 100 * first.points[i].relative_humidity)}) {
@@ -124,7 +131,7 @@ class Table {
       fmt::print("# {}: {} of {} inside two standard errors, rms {:.2f} of one\n", of, c.inside,
                  c.readings, std::sqrt(c.squares / c.readings));
     fmt::print(
-        "group,texture,moved,first answer,humidity [%],number,first,standard error,refined,"
+        "group,texture,pixels,moved,first answer,humidity [%],number,first,standard error,refined,"
         "quick,quick moved,its error,inside\n{}",
         rows_);
   }

@@ -27,7 +27,7 @@ class Ranked:
     index: int
     """Into the designs as given."""
     rank: int
-    """Ties share the better rank; without a score 1 + how many are better in all."""
+    """1 + how many are ahead beyond doubt; without a score, how many are better in all."""
     p_best_by: list[float]
     """Of each criterion: probability of the best value."""
     score: float

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "design/scans.h"
 #include "estimate/belief.h"
 #include "numerics/statistics.h"
 #include "rank/candidate.h"
@@ -259,8 +260,9 @@ class StateRanker {
     for (std::size_t place = 0; place < order.size(); ++place) {
       const std::size_t i = order[place];
       RankedCandidate r = std::move(all[i]);
-      r.rank =
-          place > 0 && out.back().tied_with_next ? out.back().rank : static_cast<int>(place) + 1;
+      r.rank += static_cast<int>(
+          std::count_if(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(place),
+                        [&](std::size_t ahead) { return scores.decided(ahead, i); }));
       r.p_best = p[i];
       r.score = interval_of(scores.skins[i], scores.steps.empty() ? StepSamples{} : scores.steps[i])
                     .moved(unmet(scores.skins, i));
@@ -298,6 +300,31 @@ void plan_steps(const std::vector<Regions>& candidates, Ranking& out) {
     out.members = cost.runs - 1;
   out.step_skins = cost.fidelity.skins;
   out.step_grid = cost.fidelity.grid;
+}
+
+// Of maps that are larger than what is pressed, one place each, or rigid where a coating may not
+// be.
+std::vector<std::string> notes_of_maps(const std::vector<Regions>& candidates) {
+  bool one_place = false, rigid = false;
+  for (const Regions& regions : candidates) {
+    const Design& d = regions.front();
+    const std::vector<ScanSource> scans = facts(d.texture).scans;
+    if (scans.empty()) continue;
+    rigid = rigid || d.surface.modulus == 0;
+    if (regions.size() > 1) continue;
+    for (const DesignScan& scan : scans_of(d))
+      one_place = one_place || (scan.taken > 0 && 2 * scan.taken < scan.changes.width);
+  }
+  std::vector<std::string> out;
+  if (one_place)
+    out.emplace_back(
+        "scans: one place of each map is pressed (texture.patch, its middle), and no ± holds what "
+        "other places would say: cut regions and join them by + (docs/how_to/scans.md)");
+  if (rigid)
+    out.emplace_back(
+        "scans: surfaces without surface.modulus are rigid; what gives way under a finger, a soft "
+        "coating, has another order");
+  return out;
 }
 
 // Surfaces without a shear strength of their own all have the finger's on glass.
@@ -371,6 +398,7 @@ Ranking ranking_of(const std::vector<Regions>& candidates, const RankOptions& op
   for (const Regions& regions : candidates) out.titles.push_back(regions.front().title);
   out.conditions = condition_differences(candidates, options);
   out.notes = notes_of(candidates, options);
+  for (std::string& note : notes_of_maps(candidates)) out.notes.push_back(std::move(note));
   if (const std::string unknown = parameters_unknown(candidates);
       !options.parameters && !unknown.empty())
     out.notes.push_back(

@@ -23,7 +23,9 @@ enum class Relation {
 
 struct RankedCandidate {
   std::size_t index = 0;  // into the designs as given
-  int rank = 1;           // ties share the better rank; without a score 1 + how many are better
+  // 1 + how many are ahead of it beyond doubt: by the score, or without one by some criterion and
+  // behind in none.
+  int rank = 1;
   std::vector<Interval> metrics;  // one per criterion, in its unit
   std::vector<double> p_best_by;  // one per criterion: probability of the best value of all
   std::vector<Relation> over;     // of each design as given; Open for itself

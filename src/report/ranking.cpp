@@ -65,7 +65,7 @@ std::vector<std::string> score_head(const RankOptions& options) {
 
 std::vector<std::string> score_row(const std::string& name, const RankOptions& options,
                                    const RankedCandidate& r, bool last) {
-  std::vector<std::string> row{fmt::format("{:>3}{}", r.rank, r.tied_with_next ? "=" : " "), name};
+  std::vector<std::string> row{fmt::format("{:>3}", r.rank), name};
   for (std::size_t c = 0; c < r.metrics.size(); ++c)
     row.push_back(metric_cell(options.criteria[c], r.metrics[c]));
   const Interval& ahead = r.ahead_of_next;
@@ -134,22 +134,26 @@ std::string end_text(const std::vector<std::string>& names, const RankOptions& o
                      const StateRanking& state) {
   if (state.open.empty())
     return options.scored() ? "the order is known" : "the order is known in every criterion";
-  std::vector<std::string> open;
+  // More skins would tell those apart that had as many as they may; what is left open of the others
+  // is not the skins'.
+  std::vector<std::string> spent, unknown;
   for (const OpenPair& pair : state.open) {
     std::string both = fmt::format("{} and {}", names[pair.first], names[pair.second]);
     if (!options.scored()) both += fmt::format(" in {}", options.criteria[pair.criterion].text());
-    open.push_back(std::move(both));
+    const int skins = std::min(skins_of(state, pair.first), skins_of(state, pair.second));
+    (options.parameters && skins < options.max_skins ? unknown : spent).push_back(std::move(both));
   }
-  const bool spent = std::any_of(state.open.begin(), state.open.end(), [&](const OpenPair& pair) {
-    return std::min(skins_of(state, pair.first), skins_of(state, pair.second)) >= options.max_skins;
-  });
-  if (!spent && options.parameters)
-    return fmt::format(
-        "more skins would not settle what is not known of finger and model, which leaves open: {}",
-        join_names(open, "; "));
-  return fmt::format(
-      "the budget of {} skins per design (--max-skins) is spent with the order open: {}",
-      options.max_skins, join_names(open, "; "));
+  std::string out;
+  if (!spent.empty())
+    out = fmt::format(
+        "the budget of {} skins per design (--max-skins) is spent with the order open: {}",
+        options.max_skins, join_names(spent, "; "));
+  if (!unknown.empty())
+    out += fmt::format(
+        "{}more skins would not settle what is not known of finger and model, which leaves open: "
+        "{}",
+        out.empty() ? "" : "\n", join_names(unknown, "; "));
+  return out;
 }
 
 std::string state_table(const std::vector<std::string>& names, const RankOptions& options,
@@ -259,6 +263,11 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
     out +=
         "ahead of the next: by the weighted mean over criteria of what each is better by, in parts "
         "of the candidates' mean size\n";
+  if (options.scored())
+    out +=
+        "rank: 1 and how many are ahead beyond doubt; who shares one may be told from another and "
+        "not "
+        "from a third\n";
   if (!options.scored())
     out +=
         "no weights (--weights), so no single order: rank 1 is beaten by nobody, rank 2 by one. "

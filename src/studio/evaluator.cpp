@@ -296,14 +296,14 @@ std::vector<Comparison> Evaluator::comparisons(const Wish& wish, Step step) {
                                                   {Summary::Variation, kModulation},
                                                   {Summary::Mean, kFriction}}};
   const std::lock_guard lock(mutex_);
+  const auto quick = [&](const Design& d) -> Response { return known(d).by_step.at(Step::First); };
   std::vector<Comparison> out;
   const std::optional<Response> ours = response_at(wish.design, step);
   for (const auto& [number, design] : wish.pinned) {
     const std::optional<Response> theirs = response_at(design, step);
     if (!theirs || !ours) continue;
-    const double drift = step == Step::First ? difference_drift(known(design).by_step.at(step),
-                                                                known(wish.design).by_step.at(step))
-                                             : 0;
+    const double drift =
+        step == Step::First ? difference_drift(quick(design), quick(wish.design)) : 0;
     for (const MetricExpression& e : compared) {
       const auto a = summarise(e.summary, e.metric, *ours);
       const auto b = summarise(e.summary, e.metric, *theirs);

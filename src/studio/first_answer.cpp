@@ -19,28 +19,31 @@ struct QuickLevel {
   int grid;
   std::array<double, 3> usual;
 };
-constexpr QuickLevel kCoarse{64, {0.69, 0.66, 0.88}};
-constexpr QuickLevel kFine{128, {0.84, 0.82, 0.94}};  // where features are narrow
+// The first that has enough pixels on the smallest feature, else the last.
+constexpr std::array<QuickLevel, 3> kLevels{
+    {{64, {0.69, 0.64, 0.83}}, {96, {0.77, 0.7, 0.85}}, {128, {0.84, 0.82, 0.94}}}};
 constexpr int kSkins = 6;
-constexpr double kFewPixels = 4;  // of the smallest feature: its area is not its own below
+constexpr double kFewPixels = 3;  // of the smallest feature: its area is not its own below
 
 // One standard error (docs/theory/studio.md): of the ratio of two levels, relative to what the
 // quick number moved by and to what its skins leave open of that, and what is left where nothing
 // moved; how far the usual ratio is off.
-constexpr double kOfMove = 0.16, kOfSkins = 1.5, kFloor = 0.012;
-constexpr std::array<double, 3> kSpread{0.06, 0.07, 0.125};
+constexpr double kOfMove = 0.2, kOfSkins = 1.6, kFloor = 0.01;
+constexpr std::array<double, 3> kSpread{0.06, 0.07, 0.145};
 
 double root(double a, double b) { return std::hypot(a, b); }
 
 const QuickLevel& quick_level(const Design& design) {
-  const bool narrow =
-      facts(design.texture).margins.smallest() < kFewPixels * kWindow / kCoarse.grid;
-  return narrow ? kFine : kCoarse;
+  const double smallest = facts(design.texture).margins.smallest();
+  const auto enough = std::find_if(kLevels.begin(), kLevels.end(), [&](const QuickLevel& level) {
+    return smallest >= kFewPixels * kWindow / level.grid;
+  });
+  return enough == kLevels.end() ? kLevels.back() : *enough;
 }
 
 // Of the ratio of two levels, where the quick number moved so from where it is known. Eq. studio.2
 double drift(const QuickMove& moved) {
-  return root(kFloor, root(kOfMove * moved.logarithm, kOfSkins * moved.error));
+  return std::hypot(kFloor, kOfMove * moved.logarithm, kOfSkins * moved.error);
 }
 
 // By Eq. studio.1 and studio.2; true where the anchor has the number.

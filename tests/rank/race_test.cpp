@@ -164,13 +164,13 @@ void expect_scored(const std::vector<Regions>& designs, const RankOptions& optio
   expect_open({scores}, options, state);
   const std::vector<std::size_t> order = scores.order();
   const std::vector<double> p = scores.probabilities(static_cast<std::uint64_t>(state.state));
-  int rank = 1;
   ASSERT_EQ(state.candidates.size(), order.size());
   for (std::size_t place = 0; place < order.size(); ++place) {
     const RankedCandidate& r = state.candidates[place];
     const std::size_t i = order[place];
     ASSERT_EQ(r.index, i);
-    if (place > 0 && scores.decided(order[place - 1], i)) rank = static_cast<int>(place) + 1;
+    int rank = 1;
+    for (std::size_t ahead = 0; ahead < place; ++ahead) rank += scores.decided(order[ahead], i);
     EXPECT_EQ(r.rank, rank);
     EXPECT_NEAR(r.p_best, p[i], 1e-9);
     expect_near(r.score,

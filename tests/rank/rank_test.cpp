@@ -9,6 +9,8 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "design/study.h"
+#include "geometry/texture.h"
 #include "numerics/statistics.h"
 #include "report/ranking.h"
 #include "tests/rank/samples.h"
@@ -109,6 +111,29 @@ TEST(Rank, ASurfaceThatSaysItsShearStrengthOfTheStateDoesNotRubAsGlassDoes) {
   EXPECT_TRUE(ranking_of(designs, options).notes.empty());
   options.states = {FingerState::Clean};
   EXPECT_EQ(ranking_of(designs, options).notes.size(), 1u);
+}
+
+// One place of a map that is larger than the patch, of a surface that gives way to nothing, is said
+// to be that.
+TEST(Rank, OfMapsSaysWhatOnePlaceAndARigidSurfaceLeaveOut) {
+  Design scan = read_study(PAPILLA_DESIGNS_DIR "/measured_surface/study.toml").design;
+  scan.accuracy.level = AccuracyLevel::Draft;
+  Measured3d& map = std::get<Measured3d>(scan.texture.kind);
+  map.patch = 5e-6;
+  RankOptions options = by("friction:low");
+  options.max_skins = 2, options.batch = 2;
+  const auto said = [&](const std::vector<Regions>& candidates, const char* words) {
+    const std::vector<std::string> notes = ranking_of(candidates, options).notes;
+    return std::count_if(notes.begin(), notes.end(), [&](const std::string& note) {
+      return note.find(words) != std::string::npos;
+    });
+  };
+  EXPECT_EQ(said({{scan}, {scan}}, "one place of each map"), 1);
+  EXPECT_EQ(said({{scan}, {scan}}, "are rigid"), 1);
+  EXPECT_EQ(said({{scan, scan}, {scan, scan}}, "one place of each map"), 0);
+  map.patch = 12e-6;
+  scan.surface.modulus = 7e6;
+  EXPECT_EQ(said({{scan}, {scan}}, "scans:"), 0);
 }
 
 // A pin brings the law of its own pair and has no states.

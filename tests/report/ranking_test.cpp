@@ -61,7 +61,7 @@ TEST(RankingReport, ForPeopleHasEachNumberUnderItsHead) {
             (Cells{"rank", "design", "mean(friction):low mN", "variation(friction):low",
                    "mean(compliance):high um/MPa", "ahead of the next, %", "model part", "p(ahead)",
                    "p(best)", "skins"}));
-  EXPECT_EQ(cells(lines[2]), (Cells{"1=", "fine", "100 ± 10", "0.250 ± 0.050", "3.0 ± 1.0",
+  EXPECT_EQ(cells(lines[2]), (Cells{"1", "fine", "100 ± 10", "0.250 ± 0.050", "3.0 ± 1.0",
                                     "12.0 [4.0, 20.0]", "±9.8", "0.900", "0.800", "24"}));
   EXPECT_EQ(cells(lines[3]), (Cells{"2", "hard", "200 ± 20", "-0.50 ± 0.10", "1.50 ± 0.50", "-",
                                     "-", "-", "0.200", "18"}));
@@ -219,6 +219,20 @@ TEST(RankingReport, WithoutWeightsItSaysWhoIsBeatenByWhom) {
                 .find("more skins would not settle what is not known of finger and model, which "
                       "leaves open: fine and hard in mean(compliance):high"),
             std::string::npos);
+  // Of two pairs each is told what would settle it.
+  Ranked other;
+  other.options.max_skins = 18;
+  StateRanking& two = other.ranking.states[0];
+  RankedCandidate third = two.candidates[1];
+  third.index = 2, third.skins = 6;
+  two.candidates.push_back(third);
+  other.names.push_back("soft");
+  two.open = {{1, 0, 0}, {0, 2, 0}};
+  const std::string both = ranking_table(other.names, other.options, other.ranking);
+  EXPECT_NE(both.find("(--max-skins) is spent with the order open: fine and hard\n"),
+            std::string::npos)
+      << both;
+  EXPECT_NE(both.find("which leaves open: hard and soft"), std::string::npos) << both;
   EXPECT_NE(table.find("  finger.load: 0.3 N in hard, 0.2 N in fine\n"), std::string::npos);
   EXPECT_NE(table.find("no weights (--weights)"), std::string::npos);
   EXPECT_NE(table.find("what the fit of the finger leaves open"), std::string::npos);
