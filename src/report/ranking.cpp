@@ -264,11 +264,8 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
         "ahead of the next: by the weighted mean over criteria of what each is better by, in parts "
         "of the candidates' mean size\n";
   if (options.scored())
-    out +=
-        "rank: 1 and how many are ahead beyond doubt; who shares one may be told from another and "
-        "not "
-        "from a third\n";
-  if (!options.scored())
+    out += "rank: 1 and how many are ahead beyond doubt\n";
+  else
     out +=
         "no weights (--weights), so no single order: rank 1 is beaten by nobody, rank 2 by one. "
         "Better: ahead in a criterion and behind in none, as far as the intervals tell; open: no "
