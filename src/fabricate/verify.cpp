@@ -202,14 +202,16 @@ Verification verify_export(const Study& study, const std::string& file, double t
   const Metric metric = design.drive.driven() ? kModulation : kFriction;
   out.design = mean_of(metric, evaluate(scene, design.texture, fidelity));
   // Where nothing repeats as much of the map as a patch of the design is; whole, where it is hardly
-  // larger.
+  // larger. What repeats is taken from its corner, where a period begins as on the design's patch:
+  // half a period further skins would meet it at other places.
+  const bool repeats = facts(design.texture).cell.has_value();
   const double side = std::min(h.grid.lx, h.grid.ly);
   Measured3d map;
   map.file = file;
   map.width = width;
-  map.patch = side < 1.5 * plan.grid.lx ? side : plan.grid.lx;
+  map.patch = repeats || side < 1.5 * plan.grid.lx ? side : plan.grid.lx;
   // What is exported repeats: nothing is to be levelled or mended, nor blended unless it is cut.
-  map.as_is = facts(design.texture).cell.has_value() || map.patch == side;
+  map.as_is = repeats || map.patch == side;
   map.top = top_of(design.texture, h.grid);
   out.file = mean_of(metric, evaluate(scene, on_patch_of(design.texture, map), fidelity));
   out.loss = std::abs(out.file - out.design) / std::abs(out.design);

@@ -276,7 +276,8 @@ TEST(Verify, OfAFileThatIsMuchLargerThanItsDesignsPatchAPatchIsJudged) {
 }
 
 // A lattice is judged on the patch of its design, whatever the sides of the file: of two by two
-// periods where the design is simulated on two by three.
+// periods where the design is simulated on two by three, of as many more as leave half a period on
+// either side of its middle.
 TEST(Verify, TheMapOfALatticeIsJudgedOnThePatchOfItsDesign) {
   Study study;
   study.design.environment.relative_humidity = {0.35};
@@ -285,10 +286,13 @@ TEST(Verify, TheMapOfALatticeIsJudgedOnThePatchOfItsDesign) {
   study.design.texture = Texture{holes};
   const Grid patch = simulated_patch(study.design.texture, 128);
   ASSERT_GT(patch.ly, 1.4 * patch.lx);
-  const Grid grid{196, 196, 9.8e-6, 9.8e-6};
   const std::string file = temporary("lattice.gsf");
-  write_gsf(file, generate(study.design.texture, grid), {});
-  EXPECT_LT(verify_export(study, file, 0.05).loss, 0.01);
+  for (const int periods : {2, 5}) {
+    const int pixels = 98 * periods;
+    const Grid grid{pixels, pixels, periods * holes.period, periods * holes.period};
+    write_gsf(file, generate(study.design.texture, grid), {});
+    EXPECT_LT(verify_export(study, file, 0.05).loss, 0.01) << periods;
+  }
 }
 
 }  // namespace
