@@ -6,7 +6,7 @@ import json
 import os
 import re
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Union
 
@@ -70,6 +70,12 @@ class Batch:
                        e["F_off"], e["F_on"]) for e in plan["experiments"]]
         """In the order in which they gain most."""
         self._document = document
+
+    def __iter__(self) -> Iterator[Experiment]:
+        return iter(self.experiments)
+
+    def __len__(self) -> int:
+        return len(self.experiments)
 
     def to_dict(self) -> dict[str, Any]:
         """What ``papilla next --json`` prints."""
@@ -182,7 +188,7 @@ class Lab:
 
     @property
     def page(self) -> str:
-        """lab.md."""
+        """The text of lab.md."""
         return _native.lab_state(self.folder, 0)[0]
 
     def __repr__(self) -> str:

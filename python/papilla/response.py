@@ -93,11 +93,13 @@ class Response:
         data["status"] = ("humidity", np.array(self.status))
         return xarray.Dataset(data, {"humidity": ("humidity", self.humidity, {"units": "1", "long_name": "relative humidity"})})
 
-    def plot(self, ax: matplotlib.axes.Axes | None = None, quantity: str | None = None) -> matplotlib.axes.Axes:
+    def plot(self, ax: matplotlib.axes.Axes | None = None, quantity: str | None = None, *,
+             label: str = "") -> matplotlib.axes.Axes:
         """A quantity over humidity; returns the axes. Needs matplotlib.
 
         The band is two numerical standard errors; where there is a belief, a lighter one is two standard deviations of
-        its model part. quantity: "modulation" (of driven designs the default), "friction_off", ...
+        its model part. quantity: "modulation" (of driven designs the default), "friction_off", ... label: what the
+        legend calls the curve, where several share the axes; empty: the quantity.
         """
         import matplotlib.pyplot
 
@@ -106,11 +108,12 @@ class Response:
         if ax is None:
             ax = matplotlib.pyplot.subplots()[1]
         x = 100 * self.humidity
-        line, = ax.plot(x, shown.value, marker="o", label=name.replace("_", " "))
+        told = set(ax.get_legend_handles_labels()[1])  # what a band is, the legend says once
+        line, = ax.plot(x, shown.value, marker="o", label=label or name.replace("_", " "))
         for part, name_of, alpha in ((shown.model, "± 2 model", 0.1), (shown.numerical, "± 2 numerical", 0.25)):
             if np.all(np.isfinite(part)):
                 ax.fill_between(x, shown.value - 2 * part, shown.value + 2 * part, alpha=alpha,
-                                color=line.get_color(), linewidth=0, label=name_of)
+                                color=line.get_color(), linewidth=0, label=None if name_of in told else name_of)
         ax.set_xlabel("relative humidity (%)")
         ax.set_ylabel(name.replace("_", " ") + (f" ({_UNITS[name]})" if _UNITS[name] else ""))
         ax.legend()

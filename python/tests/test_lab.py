@@ -52,7 +52,7 @@ def test_a_table_counts_once_and_a_wrong_one_not_at_all(lab: pp.Lab, tmp_path: P
 def test_a_lab_that_is_opened_again_has_its_batch(lab: pp.Lab) -> None:
     again = pp.Lab(lab.folder).batch
     assert again is not None and lab.batch is not None
-    assert again.experiments == lab.batch.experiments
+    assert list(again) == lab.batch.experiments and len(again) == len(lab.batch)
     assert (again.purpose, again.stop) == (lab.batch.purpose, lab.batch.stop)
 
 

@@ -123,6 +123,9 @@ def test_a_plot_has_the_values(quick: pp.Design) -> None:
     assert labels[0] == "modulation" and "± 2 numerical" in labels
     assert ("± 2 model" in labels) == bool(np.all(np.isfinite(r.modulation.model)))
     assert r.plot(quantity="friction_off").get_ylabel() == "friction off (N)"
+    r.plot(ax, label="again")
+    more = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert sorted(more) == sorted(labels + ["again"])
 
 
 def test_a_difference_is_surer_than_two_values(quick: pp.Design) -> None:
