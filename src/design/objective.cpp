@@ -133,12 +133,13 @@ void read_constraints(StudyFile& file) {
   if (!section) return;
   std::vector<std::string> keys;
   for (const ConstraintKind& kind : constraint_kinds()) keys.push_back(kind.name);
+  Node unknown = *section;
+  unknown.children.clear();
   for (const Node& child : section->children) {
     const bool is_metric = child.key.find('(') != std::string::npos;
-    if (is_metric) keys.push_back(child.key);
-    if (std::find(keys.begin(), keys.end(), child.key) == keys.end()) {
-      if (refuse_dimension(file, child, keys)) keys.push_back(child.key);
-      continue;  // `only` says of the others that they are unknown
+    if (!is_metric && std::find(keys.begin(), keys.end(), child.key) == keys.end()) {
+      if (!refuse_dimension(file, child, keys)) unknown.children.push_back(child);
+      continue;
     }
     try {
       const ConstraintKind kind = read_constraint_kind(child.key);
@@ -150,7 +151,7 @@ void read_constraints(StudyFile& file) {
       file.document.problem(child.key_place, "constraints", error.problems().front().message);
     }
   }
-  file.only(*section, "constraints", keys);
+  file.only(unknown, "constraints", keys);
   check_yield(file, *section);
 }
 

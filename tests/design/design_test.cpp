@@ -240,6 +240,13 @@ TEST(Study, ProblemsAcrossFieldsAreLocated) {
   EXPECT_EQ(problems_of(head + "[constraints]\nmax_contact_angle = \"90 deg\"\n"),
             ":3:1: constraints: `max_contact_angle`: the search changes a dimension between its "
             "ends alone; say them in [design_space]: \"surface.contact_angle\" = [low, high]");
+  // What is refused, and what is computed, is no key that is known.
+  const std::string listed = problems_of(
+      head +
+      "[constraints]\nmax_contact_angle = \"90 deg\"\n\"mean(modulation)\" = 0.1\nxyz = 1\n");
+  EXPECT_NE(listed.find("unknown key `xyz`; known here: "), std::string::npos) << listed;
+  EXPECT_EQ(listed.find(", max_contact_angle"), std::string::npos) << listed;
+  EXPECT_EQ(listed.find(", mean(modulation)"), std::string::npos) << listed;
   EXPECT_EQ(problems_of(head + "[serach]\nseed = 1\n"),
             ":2:2: unknown key `serach`, did you mean `search`?");
   EXPECT_EQ(problems_of(head + "[population]\nfingers = [\"none.toml\"]\n"),
