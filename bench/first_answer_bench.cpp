@@ -3,7 +3,7 @@
 // and is carried by each other of its group. CSV: what the first answer said, its standard error,
 // what it was made of, the refined value.
 //   ninja -C build first_answer_bench
-//   build/bench/first_answer_bench designs 27 2611 > results/studio/bands.csv
+//   build/bench/first_answer_bench designs 30 2612 > results/studio/bands.csv
 #include <fmt/format.h>
 
 #include <array>
