@@ -137,7 +137,7 @@ function select(index) {
     const bests = ranking.criteria.map((k) => { const c = list.reduce((a, o) => o.p_best_by[k.metric] > a.p_best_by[k.metric] ? o : a); return `${c.name} in ${k.metric} (probability ${likely(c.p_best_by[k.metric])})`; });
     $('lead').textContent = who + (names.length > 1 ? `no weights settle the trade-off: nobody beats ${listed(names)}.` : `${names[0]} is beaten by nobody, and all others are.`) + ' Best: ' + listed(bests) + '.';
   } else if (names.length > 1) {
-    $('lead').textContent = who + `${listed(names)}: nobody is ahead of these beyond doubt; ${names[0]} is best with a probability of ${likely(first[0].p_best)}.`;
+    $('lead').textContent = who + `nobody is ahead of ${listed(names)} beyond doubt; ${names[0]} is best with a probability of ${likely(first[0].p_best)}.`;
   } else {
     $('lead').textContent = who + `${names[0]} is best, with a probability of ${likely(first[0].p_best)}; it leads ${list[1].name} by ${percent(first[0].ahead_of_next.value)} % [${percent(first[0].ahead_of_next.low)}, ${percent(first[0].ahead_of_next.high)}] of the score.`;
   }
