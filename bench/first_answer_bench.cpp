@@ -10,10 +10,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "base/error.h"
 #include "base/random.h"
 #include "config/describe.h"
 #include "design/design.h"

@@ -203,13 +203,16 @@ Verification verify_export(const Study& study, const std::string& file, double t
   out.design = mean_of(metric, evaluate(scene, design.texture, fidelity));
   // Where nothing repeats as much of the map as a patch of the design is; whole, where it is hardly
   // larger. What repeats is taken from its corner, where a period begins as on the design's patch:
-  // half a period further skins would meet it at other places.
+  // half a period further skins would meet it at other places. A patch that is no side of the grid
+  // has the map laid on it so.
   const bool repeats = facts(design.texture).cell.has_value();
   const double side = std::min(h.grid.lx, h.grid.ly);
   Measured3d map;
   map.file = file;
   map.width = width;
-  map.patch = repeats || side < 1.5 * plan.grid.lx ? side : plan.grid.lx;
+  map.patch = repeats                     ? std::min(side, 0.999 * plan.grid.lx)
+              : side < 1.5 * plan.grid.lx ? side
+                                          : plan.grid.lx;
   // What is exported repeats: nothing is to be levelled or mended, nor blended unless it is cut.
   map.as_is = repeats || map.patch == side;
   map.top = top_of(design.texture, h.grid);

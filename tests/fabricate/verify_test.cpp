@@ -293,6 +293,10 @@ TEST(Verify, TheMapOfALatticeIsJudgedOnThePatchOfItsDesign) {
     write_gsf(file, generate(study.design.texture, grid), {});
     EXPECT_LT(verify_export(study, file, 0.05).loss, 0.01) << periods;
   }
+  // As wide as the patch, and half a patch longer.
+  std::get<HoleArray>(study.design.texture.kind).period = 6e-6;
+  write_gsf(file, generate(study.design.texture, {120, 180, 12e-6, 18e-6}), {});
+  EXPECT_LT(verify_export(study, file, 0.05).loss, 0.01);
 }
 
 }  // namespace

@@ -14,7 +14,6 @@ const likely = (p) => p > 0.999 ? '> 0.999' : p < 0.001 ? '< 0.001' : p.toFixed(
 // Beside a bar a long title gives way to the name of the file.
 const brief = (c) => c.name.length > 22 && c.file ? c.file : c.name;
 const listed = (names) => names.length > 1 ? names.slice(0, -1).join(', ') + ' and ' + names[names.length - 1] : names[0];
-const place = (list, i) => `${list[i].rank}${list.filter((c) => c.rank === list[i].rank).length > 1 ? '=' : ''}`;
 
 function rowsChart(id, list, set, title, ends = {}) {
   const canvas = $(id);
@@ -43,7 +42,7 @@ function showScore(list) {
   rowsChart('best', list, { data: list.map((c) => 100 * c.p_best), text: list.map((c) => likely(c.p_best)) }, 'probability of being best [%]', { min: 0, max: 100 });
   const columns = criteriaColumns(list);
   const head = ['place', 'design'].concat(columns.head, ['ahead of the next [%]', 'p(ahead)', 'p(best)', 'skins']);
-  table($('places'), head, list.map((c, i) => [place(list, i), c.name]
+  table($('places'), head, list.map((c, i) => [c.rank, c.name]
     .concat(ranking.criteria.map((k, m) => columns.value(c, k, m)))
     .concat(i + 1 < list.length ? [`${percent(c.ahead_of_next.value)} [${percent(c.ahead_of_next.low)}, ${percent(c.ahead_of_next.high)}]` + (c.tied_with_next ? ': tie' : ''), likely(c.p_ahead)] : ['–', '–'])
     .concat([likely(c.p_best), c.skins])), head.map((h, i) => i).slice(2));
