@@ -15,11 +15,10 @@
 #include <vector>
 
 #include "base/random.h"
-#include "config/describe.h"
+#include "bench/drawn_design.h"
 #include "design/design.h"
 #include "estimate/difference.h"
 #include "forward/forward.h"
-#include "geometry/texture.h"
 #include "metrics/metrics.h"
 #include "studio/first_answer.h"
 
@@ -28,7 +27,6 @@ using namespace papilla::tests;
 namespace {
 
 constexpr int kOfGroup = 3;
-constexpr double kLeast = 0.6, kMost = 1.6;  // times the value before
 struct Number {
   const char* name;
   QuantityMetric metric;
@@ -41,42 +39,6 @@ struct Drawn {
   std::string moved;  // what was, since the one before
   Response quick, refined;
 };
-
-// One of the numbers that a hand is at, as far as the design goes.
-std::string move(RandomStream& random, Design& design) {
-  std::vector<std::string> paths = texture_numbers(design);
-  paths.insert(paths.end(), {"drive.amplitude", "finger.load"});
-  const std::string path = paths[static_cast<std::size_t>(random.below(int(paths.size())))];
-  const double share = std::exp(random.uniform(std::log(kLeast), std::log(kMost)));
-  const DesignStep step = design_step(design, path, std::abs(share - 1));
-  set_number(design, path, share > 1 ? step.up : step.down);
-  return path;
-}
-
-std::vector<std::size_t> kinds() {
-  std::vector<std::size_t> out;
-  for (std::size_t kind = 0; kind < texture_kinds().size(); ++kind) {
-    if (numbers_alone(kind)) out.push_back(kind);
-  }
-  return out;
-}
-
-Design first_of(RandomStream& random, const std::string& designs, std::size_t group) {
-  const std::vector<std::size_t> all = kinds();
-  const bool film = group / all.size() % 2 == 1;
-  Design out =
-      read_design(designs + (film ? "/m3_glass/directional.toml" : "/m3_samples/a3h600.toml"));
-  const Texture texture = default_texture(all[group % all.size()]);
-  if (texture_name(texture) != texture_name(out.texture)) out.texture = texture;
-  if (group % 3 == 2) {  // narrow
-    for (const std::string& path : texture_numbers(out)) {
-      const DesignStep step = design_step(out, path, 0.7);
-      if (step.unit == "um") set_number(out, path, step.down);
-    }
-  }
-  for (int n = 0; n < 3; ++n) move(random, out);
-  return out;
-}
 
 Drawn answered(Design design, std::string moved) {
   Drawn out{std::move(design), std::move(moved), {}, {}};
@@ -151,11 +113,11 @@ int main(int argc, char** argv) {
   Table table;
   for (std::size_t group = 0; group < std::strtoul(argv[2], nullptr, 10); ++group) {
     RandomStream random(std::strtoul(argv[3], nullptr, 10), "first_answer_bench", group);
-    std::vector<Drawn> of_group{answered(first_of(random, argv[1], group), "")};
+    std::vector<Drawn> of_group{answered(drawn_design(random, argv[1], group), "")};
     while (of_group.size() < kOfGroup) {
       Design next = of_group.back().design;
-      std::string moved = move(random, next);
-      if (random.below(2) == 1) moved = fmt::format("{} {}", moved, move(random, next));
+      std::string moved = moved_by_hand(random, next);
+      if (random.below(2) == 1) moved = fmt::format("{} {}", moved, moved_by_hand(random, next));
       of_group.push_back(answered(std::move(next), moved));
     }
     for (const Drawn& d : of_group) {

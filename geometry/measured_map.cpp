@@ -113,7 +113,24 @@ constexpr double kSeam = 0.1;  // of a patch's side: the band that is blended
 
 ScanChanges changes_of_map(const ScanSource& source) { return scan_of(source)->changes; }
 
-Heightmap middle_of_map(const ScanSource& source, double patch, const Grid& grid) {
+std::vector<MapPlace> places_of_map(const ScanSource& source, double patch) {
+  const auto scan = scan_of(source);
+  const Grid& whole = scan->map.grid;
+  if (scan->changes.as_is || scan->changes.repeats) return {{}};
+  // Each in the middle of its half, a seam from the next.
+  const auto along = [&](double side) {
+    return side >= 2 * (1 + 2 * kSeam) * patch ? std::vector{-side / 4, side / 4}
+                                               : std::vector{0.0};
+  };
+  std::vector<MapPlace> out;
+  for (const double y : along(whole.ly)) {
+    for (const double x : along(whole.lx)) out.push_back({x, y});
+  }
+  return out;
+}
+
+Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& at,
+                       const Grid& grid) {
   const auto scan = scan_of(source);
   const Grid& whole = scan->map.grid;
   if (whole.lx < patch * (1 - 1e-9) || whole.ly < patch * (1 - 1e-9)) {
@@ -124,7 +141,15 @@ Heightmap middle_of_map(const ScanSource& source, double patch, const Grid& grid
   if (source.as_is && same_pixels(grid, whole)) return {grid, scan->map.z};  // to the last bit
   const auto other = [&](double side) { return std::abs(side / patch - 1) > 1e-9; };
   if (source.as_is && (other(grid.lx) || other(grid.ly))) return tiled(scan->map, grid);
-  const double x0 = 0.5 * (whole.lx - grid.lx), y0 = 0.5 * (whole.ly - grid.ly);
+  const double x0 = 0.5 * (whole.lx - grid.lx) + at.x, y0 = 0.5 * (whole.ly - grid.ly) + at.y;
+  const double beyond = std::max({-x0, -y0, x0 + grid.lx - whole.lx, y0 + grid.ly - whole.ly});
+  if (beyond > 1e-9 * patch) {
+    throw InputError(fmt::format(
+        "texture.at_x, texture.at_y: the square of {:.4g} um round ({:.4g}, {:.4g}) um reaches "
+        "{:.4g} um beyond the map, {:.4g} x {:.4g} um: {}",
+        1e6 * patch, 1e6 * at.x, 1e6 * at.y, 1e6 * beyond, 1e6 * whole.lx, 1e6 * whole.ly,
+        source.file));
+  }
   const double seam = source.as_is ? 0 : kSeam;  // what is known repeats by itself
   return periodic_cut(scan->map, grid, x0, y0, std::clamp(x0, 0.0, seam * grid.lx),
                       std::clamp(y0, 0.0, seam * grid.ly), {});

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "base/rooms.h"
 #include "geometry/heightmap.h"
@@ -10,11 +11,23 @@
 
 namespace papilla::geometry {
 
-// The map of the file, levelled, mended and made periodic, resampled on the grid: cut from the
-// middle. One that repeats by itself and is asked for other sides than its patch, as a part of a
-// stack, begins at its corner, as textures do. Throws InputError for a map smaller than `patch`
-// [m].
-Heightmap middle_of_map(const ScanSource& source, double patch, const Grid& grid);
+// From the middle of a map to the middle of a patch of it [m].
+struct MapPlace {
+  double x = 0, y = 0;
+
+  bool operator==(const MapPlace&) const = default;
+};
+
+// The map of the file, levelled, mended and made periodic, resampled on the grid: cut at a place.
+// One that repeats by itself and is asked for other sides than its patch, as a part of a stack,
+// begins at its corner, as textures do. Throws InputError for a map smaller than `patch` [m], and
+// for a place where the patch reaches beyond it.
+Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& at,
+                       const Grid& grid);
+
+// Places whose patches have no pixel in common and leave room for their seams: two along each side
+// that is long enough, evenly. One, the middle: of a map that is no larger, or repeats by itself.
+std::vector<MapPlace> places_of_map(const ScanSource& source, double patch);
 
 // What was changed of the map before that. Read once, whoever asks.
 ScanChanges changes_of_map(const ScanSource& source);

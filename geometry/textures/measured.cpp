@@ -29,12 +29,17 @@ void fields(FieldVisitor& v, Measured3d& t) {
             "height of the map's highest place over the untouched land, where a planar film is as "
             "thick as said; 0: holes cut into it, above 0: pillars that stand on it"},
            t.top);
-  v.number({"patch", "um", 0.1, 1e4, "side of the simulated square, cut from the middle"}, t.patch);
+  v.number({"patch", "um", 0.1, 1e4, "side of the simulated square"}, t.patch);
+  v.number({"at_x", "um", -1e6, 1e6,
+            "middle of the square, from the middle of the map; `papilla rank` takes several places "
+            "of a map by itself where this and at_y are 0"},
+           t.at_x);
+  v.number({"at_y", "um", -1e6, 1e6, "the same along y"}, t.at_y);
 }
 
 Heightmap heights(const Measured3d& t, const Grid& grid) {
   const ScanSource source = source_of(t);
-  Heightmap out = middle_of_map(source, t.patch, grid);
+  Heightmap out = patch_of_map(source, t.patch, {t.at_x, t.at_y}, grid);
   // Instruments and arrays have their own zero. Eq. geometry.9
   const double lift = t.top - changes_of_map(source).highest;
   for (double& z : out.z) z += lift;

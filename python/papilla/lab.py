@@ -100,6 +100,8 @@ class Told:
         """New ones."""
         self.already: int = sum(f["already"] for f in document["files"])
         """Readings that were told before and are not counted again."""
+        self.fitted: int = sum(f["fitted"] for f in document["files"])
+        """Readings that the belief was fitted to, so left out."""
         self._document = document
 
     def to_dict(self) -> dict[str, Any]:

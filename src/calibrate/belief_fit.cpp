@@ -206,6 +206,9 @@ class BeliefMaker {
                             out_.hypotheses.size());
     for (const HypothesisFit& h : out_.hypotheses) b.samples += h.posterior.asked;
     b.effective_samples = effective_number(weights);
+    for (const FrictionDatum& d : calibration_.data)
+      b.readings.push_back(
+          reading_text(d.load, d.relative_humidity, d.amplitude, d.off, d.on_sd > 0 ? d.on : 0));
     b.calibrated_for = finger_.calibrated_for;
     b.fitted = values(fit_.values());
     for (std::size_t k = 0; k < chosen.index.size(); ++k) {

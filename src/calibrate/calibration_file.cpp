@@ -109,7 +109,11 @@ class CalibrationReader {
   }
 
   void read_data() {
-    from_file("data", [&](const std::string& file) { out_.data = read_friction(file); });
+    from_file("data", [&](const std::string& file) {
+      FrictionTable table = read_friction(file);
+      out_.data = std::move(table.rows);
+      out_.data_notes = std::move(table.notes);
+    });
   }
 
   void read_lists() {

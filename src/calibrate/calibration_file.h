@@ -49,6 +49,7 @@ struct Calibration {
   std::vector<CalibrationParameter> parameters;
   std::vector<std::string> fit, hold_out;  // ids of claims, written down before the fit
   std::vector<FrictionDatum> data;
+  std::vector<std::string> data_notes;       // for people: what of the table was not read
   SkinSampling sampling{"draft", 12, 0, 0};  // of the fit
   SkinSampling check;                        // of the claims afterwards: other skins
   int iterations = 15;

@@ -15,10 +15,15 @@ struct FrictionDatum {
   double off = 0, off_sd = 0, on = 0, on_sd = 0;                         // [N]; on_sd 0: not driven
   int line = 0;
 };
+struct FrictionTable {
+  std::vector<FrictionDatum> rows;
+  std::vector<std::string> notes;  // for people: what was not read, and not taken
+};
 
-// `design,relative_humidity,amplitude_V,frequency_Hz,load_N,F_off_N,F_off_sd_N,F_on_N,F_on_sd_N`:
-// designs beside the table, humidity as "15 %" or 0.15; empty F_on where nothing is driven. Throws
-// InputError with every bad cell, each with its line; a friction over ten times the load is one.
-std::vector<FrictionDatum> read_friction(const std::string& path);
+// A table as `scene/measured_table.h` reads it, with what a fit needs of each row: a design beside
+// the table or among the shipped ones, load, humidity, friction with its standard deviation; under
+// a voltage its frequency too, and the friction of the same touch without it. Rows of other fingers
+// or states than the first are refused: a fit is of one. Throws InputError with every mistake.
+FrictionTable read_friction(const std::string& path);
 
 }  // namespace papilla::calibrate

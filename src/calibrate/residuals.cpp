@@ -80,8 +80,8 @@ Residuals::Residuals(const Calibration& calibration, int threads, const std::str
 void Residuals::add_rows(const FrictionDatum& d) {
   const auto add = [&](const char* name, double value, double sd) {
     rows_.push_back({fmt::format("line {}", d.line),
-                     fmt::format("{} of {} at {:.0f} % RH, {} V, mN", name,
-                                 std::filesystem::path(d.design).stem().string(),
+                     fmt::format("{} of {} at {} N, {:.0f} % RH, {} V, mN", name,
+                                 std::filesystem::path(d.design).stem().string(), d.load,
                                  100 * d.relative_humidity, d.amplitude),
                      value * 1e3, value * 1e3, sd * 1e3, 0, 0, 0});
   };

@@ -14,8 +14,8 @@ std::string text(const DesignScan& scan) {
   std::string out = geometry::text(scan.file, c);
   if (scan.taken > 0 && scan.taken < (1 - 1e-9) * std::max(c.width, c.height)) {
     out += fmt::format(
-        "; of its {:.4g} x {:.4g} um the middle {:.4g} um are the texture "
-        "(texture.patch){}",
+        "; of its {:.4g} x {:.4g} um a square of {:.4g} um is the texture "
+        "(texture.patch, at_x, at_y){}",
         1e6 * c.width, 1e6 * c.height, 1e6 * scan.taken,
         c.as_is ? "" : ", blended along two borders with what lies beyond, so that it repeats");
   }

@@ -13,7 +13,7 @@ namespace papilla::design {
 struct DesignScan {
   std::string file;
   ScanChanges changes;
-  double taken = 0;  // side of the square from the middle of the map that the texture is [m]
+  double taken = 0;  // side of the square of the map that the texture is [m]
 };
 
 // What was changed of it, and where a part alone is taken.

@@ -236,6 +236,7 @@ PlanRecord Lab::next(const NextOptions& options) {
 // Those that were not told before. Throws InputError for one that contradicts what was.
 std::vector<FrictionReading> Lab::new_ones(std::vector<FrictionReading> readings, bool replace,
                                            Told& told) const {
+  const std::vector<std::string>& in_belief = belief().readings;
   std::map<std::string, std::string> known, said;
   for (const JournalEntry& e : entries_) {
     if (!e.tell) continue;
@@ -252,6 +253,15 @@ std::vector<FrictionReading> Lab::new_ones(std::vector<FrictionReading> readings
     if (const auto before = known.find(r.key); before != known.end()) {
       ++told.already;
       told.already_of = before->second;
+      continue;
+    }
+    const auto is_in_belief = [&](const std::string& text) {
+      return std::find(in_belief.begin(), in_belief.end(), text) != in_belief.end();
+    };
+    const Conditions& at = r.experiment.at;
+    if (is_in_belief(r.row) ||
+        is_in_belief(reading_text(at.load, at.relative_humidity, at.voltage, r.off, r.on))) {
+      ++told.fitted;
       continue;
     }
     const std::string id = identity(r);

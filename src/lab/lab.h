@@ -53,6 +53,7 @@ struct Told {
   TellRecord record;
   int already = 0, empty = 0;  // readings known before; rows not measured yet
   std::string already_of;      // the file and date that had told them
+  int fitted = 0;              // readings that the belief was made of
   std::optional<DecisionRecord> before, after;
   // Of a record.
   std::optional<Trace> trace;

@@ -298,6 +298,10 @@ Matched match_table(const MeasuredTable& table, const MatchContext& context,
       continue;
     }
     // Rows alike in everything are readings alike: the first, the second, ...
+    reading->row = reading_text(
+        row.load.value_or(reading->experiment.at.load),
+        row.relative_humidity.value_or(reading->experiment.at.relative_humidity),
+        row.voltage.value_or(reading->experiment.at.voltage), reading->off, reading->on);
     reading->key = key_of(*reading);
     reading->key += fmt::format(" | {}", ++seen[reading->key]);
     out.readings.push_back(std::move(*reading));

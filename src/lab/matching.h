@@ -8,10 +8,10 @@
 
 #include "base/rooms.h"
 #include "lab/lab_file.h"
-#include "lab/measured_table.h"
 #include "lab/records.h"
 #include "lab/response_table.h"
 #include "lab/trace_reading.h"
+#include "scene/measured_table.h"
 
 namespace papilla::lab {
 

@@ -131,7 +131,8 @@ TellRecord tell_of(const Json& j) {
                         r.at("on"),
                         r.at("on_sd"),
                         r.at("line"),
-                        r.at("key")};
+                        r.at("key"),
+                        {}};
     t.readings.push_back(std::move(one));
   }
   return t;

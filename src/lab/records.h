@@ -44,6 +44,7 @@ struct FrictionReading {
   double off = 0, off_sd = 0, on = 0, on_sd = 0;  // [N]; 0: not measured
   int line = 0;                                   // of the table; 0: a trace
   std::string key;                                // what it is, and which of several alike
+  std::string row;  // as its table has it (reading_text), before it was taken as planned
 };
 
 struct TellRecord {

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "lab/columns.h"
+#include "config/columns.h"
 
 namespace papilla::lab {
 namespace {
@@ -71,7 +71,7 @@ class TraceReader {
   void header(const std::vector<std::string_view>& cells) {
     const Header found = read_header(cells, trace_kinds());
     for (const auto& [cell, message] : found.problems) problem(cell, message);
-    for (const Column& column : found.columns) {
+    for (const TableColumn& column : found.columns) {
       const auto index =
           column.kind ? column.kind - trace_kinds().data() : std::ptrdiff_t{kTraceColumns};
       columns_.push_back({static_cast<TraceColumn>(index), column.to_si});

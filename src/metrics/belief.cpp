@@ -1,7 +1,9 @@
 // Numbers over the members of a belief. Eq. accuracy.15
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "base/constants.h"
 #include "metrics/metrics.h"
 #include "numerics/statistics.h"
 
@@ -26,6 +28,20 @@ std::optional<Readings> readings(const Resampled& run, const Number& number) {
   return out;
 }
 
+// The values less what of their distance from their mean is scatter of the skins. Eq. accuracy.18
+std::vector<double> meant(const BeliefValues& belief) {
+  const std::vector<double>& w = belief.weights;
+  const double total = std::accumulate(w.begin(), w.end(), 0.0),
+               mean = std::inner_product(w.begin(), w.end(), belief.values.begin(), 0.0) / total;
+  double moved = 0;
+  for (const std::vector<double>& of_member : belief.moves)
+    moved += square(mean_estimate(of_member).value);
+  const double share = moved > 0 ? belief.deviation() / std::sqrt(moved) : 1;
+  std::vector<double> out = belief.values;
+  for (double& v : out) v = mean + share * (v - mean);
+  return out;
+}
+
 }  // namespace
 
 // Of a quantity that is a size. The capillary force and what is made of it may push or pull.
@@ -41,7 +57,9 @@ double moved(double value, double own, double there, bool keeps_sign) {
   return value + (in_proportion ? std::min(value / own, kMost) : 1) * (there - own);
 }
 
-double BeliefValues::quantile(double p) const { return weighted_quantile(values, weights, p); }
+double BeliefValues::quantile(double p) const {
+  return weighted_quantile(meant(*this), weights, p);
+}
 
 std::optional<BeliefValues> belief_values(const BeliefRuns& runs, const Number& number,
                                           std::optional<double> value, bool keeps_sign) {
@@ -97,17 +115,17 @@ std::optional<BeliefDifference> belief_difference(const BeliefValues& first,
                                                   const BeliefValues& second) {
   if (first.weights != second.weights || first.moves.front().size() != second.moves.front().size())
     return std::nullopt;
-  StepSamples moves = first.moves;
-  std::vector<double> values = first.values;
-  BeliefDifference out{0, 0, 0, 0};
-  for (std::size_t m = 0; m < values.size(); ++m) {
-    for (std::size_t k = 0; k < moves[m].size(); ++k) moves[m][k] -= second.moves[m][k];
-    values[m] -= second.values[m];
-    out.above += first.weights[m] * (values[m] > 0 ? 1 : values[m] < 0 ? 0 : 0.5);
+  BeliefValues both = first;
+  for (std::size_t m = 0; m < both.values.size(); ++m) {
+    for (std::size_t k = 0; k < both.moves[m].size(); ++k) both.moves[m][k] -= second.moves[m][k];
+    both.values[m] -= second.values[m];
   }
-  out.deviation = step_error(moves);
-  out.low = weighted_quantile(values, first.weights, 0.025);
-  out.high = weighted_quantile(values, first.weights, 0.975);
+  BeliefDifference out{both.deviation(), 0, 0, 0};
+  both.values = meant(both);
+  for (std::size_t m = 0; m < both.values.size(); ++m)
+    out.above += first.weights[m] * (both.values[m] > 0 ? 1 : both.values[m] < 0 ? 0 : 0.5);
+  out.low = weighted_quantile(both.values, first.weights, 0.025);
+  out.high = weighted_quantile(both.values, first.weights, 0.975);
   return out;
 }
 

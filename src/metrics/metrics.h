@@ -39,7 +39,8 @@ using StepSamples = std::vector<std::vector<double>>;  // [direction][skin]
 std::optional<StepSamples> step_samples(
     const std::vector<ParameterStep>& steps,
     const std::function<std::optional<double>(const std::vector<ResponsePoint>&)>& value);
-// The standard error that they leave, less what the skins scatter. Eq. accuracy.11
+// The standard error that they leave: what of the moves is meant and not the scatter of the skins;
+// 0 where nothing moves alone. Eq. accuracy.18
 double step_error(const StepSamples& samples);
 
 // A number as a member of belief has it: `own` and `there` are of the scene as it is and of the
@@ -55,7 +56,8 @@ struct BeliefValues {
   StepSamples moves;
 
   double deviation() const { return step_error(moves); }
-  // Of the values: 0.025 and 0.975 are the ends of a 95 % interval.
+  // The values, as far from their mean as is meant: 0.025 and 0.975 are the ends of a 95 %
+  // interval.
   double quantile(double p) const;
 };
 // Whether a number that a member moves cannot change its sign.

@@ -24,6 +24,11 @@ std::vector<double> jackknife_samples(double all, std::span<const double> withou
 // What each sample moves their mean by: the sum of the moves, each by a standard normal number of
 // its own, is a draw of its error; their squares sum up to its variance. One sample moves nothing.
 std::vector<double> error_moves(std::span<const double> samples);
+// What part of a sum of squares is meant, the rest being scatter: k where the sum is `ratio` times
+// that of its scatter, by `freedom` degrees of freedom of them, any k from 0 to 1 as likely before;
+// se: one standard deviation of k. samples: from how many each scatter is known; 0: it is known.
+// Never 0, where a difference of squares would be below it. Eq. search.23, accuracy.18
+Estimate meant_share(double ratio, double freedom, std::size_t samples = 0);
 double quantile(std::vector<double> values, double p);  // linear interpolation, p in [0, 1]
 // Of weighted values: linear between the middles of their shares, the ends beyond.
 double weighted_quantile(std::span<const double> values, std::span<const double> weights, double p);

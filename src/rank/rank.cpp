@@ -6,11 +6,13 @@
 #include <chrono>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "design/scans.h"
 #include "estimate/belief.h"
+#include "geometry/measured_map.h"
 #include "numerics/statistics.h"
 #include "rank/candidate.h"
 #include "scene/uncertainty.h"
@@ -302,28 +304,77 @@ void plan_steps(const std::vector<Regions>& candidates, Ranking& out) {
   out.step_grid = cost.fidelity.grid;
 }
 
-// Of maps that are larger than what is pressed, one place each, or rigid where a coating may not
-// be.
+// A design whose texture is a map with room for more patches than one, at several places of it:
+// what one place is like is not what the surface is like.
+Regions places_of(const Design& design) {
+  const auto* map = std::get_if<Measured3d>(&design.texture.kind);
+  if (!map || map->at_x != 0 || map->at_y != 0) return {design};
+  Regions out;
+  for (const MapPlace& at : places_of_map(facts(design.texture).scans.front(), map->patch)) {
+    out.push_back(design);
+    auto& placed = std::get<Measured3d>(out.back().texture.kind);
+    placed.at_x = at.x;
+    placed.at_y = at.y;
+  }
+  return out;
+}
+
+// Every region at its places.
+std::vector<Regions> at_places(const std::vector<Regions>& candidates) {
+  std::vector<Regions> out;
+  for (const Regions& regions : candidates) {
+    out.emplace_back();
+    for (const Design& region : regions) {
+      const Regions places = places_of(region);
+      out.back().insert(out.back().end(), places.begin(), places.end());
+    }
+  }
+  return out;
+}
+
+// What was pressed of maps that are larger, and that they are rigid where a coating may not be.
 std::vector<std::string> notes_of_maps(const std::vector<Regions>& candidates) {
   bool one_place = false, rigid = false;
+  std::size_t places = 0;
   for (const Regions& regions : candidates) {
     const Design& d = regions.front();
-    const std::vector<ScanSource> scans = facts(d.texture).scans;
-    if (scans.empty()) continue;
+    if (facts(d.texture).scans.empty()) continue;
     rigid = rigid || d.surface.modulus == 0;
+    places = std::max(places, regions.size());
     if (regions.size() > 1) continue;
     for (const DesignScan& scan : scans_of(d))
-      one_place = one_place || (scan.taken > 0 && 2 * scan.taken < scan.changes.width);
+      one_place = one_place || (!scan.changes.as_is && !scan.changes.repeats && scan.taken > 0 &&
+                                2 * scan.taken < scan.changes.width);
   }
   std::vector<std::string> out;
+  if (places > 1)
+    out.push_back(
+        fmt::format("scans: skins press {} places of a map in turn (texture.patch wide), so that ± "
+                    "holds how they differ",
+                    places));
   if (one_place)
     out.emplace_back(
-        "scans: one place of each map is pressed (texture.patch, its middle), and no ± holds what "
-        "other places would say: cut regions and join them by + (docs/how_to/scans.md)");
+        "scans: one place of a map is pressed, and no ± holds what other places would say: leave "
+        "out texture.at_x and at_y, or take a smaller texture.patch");
   if (rigid)
     out.emplace_back(
         "scans: surfaces without surface.modulus are rigid; what gives way under a finger, a soft "
         "coating, has another order");
+  return out;
+}
+
+// What became of each map before it was pressed, and how rough it is then.
+std::vector<std::string> scans_behind(const std::vector<Regions>& candidates) {
+  std::vector<std::string> out;
+  for (const Regions& regions : candidates) {
+    for (const Design& region : regions) {
+      for (const DesignScan& scan : scans_of(region)) {
+        std::string line =
+            fmt::format("{}; Sq {} nm", text(scan), significant(1e9 * scan.changes.rms, 3));
+        if (std::find(out.begin(), out.end(), line) == out.end()) out.push_back(std::move(line));
+      }
+    }
+  }
   return out;
 }
 
@@ -386,8 +437,9 @@ std::string parameters_unknown(const std::vector<Regions>& candidates) {
   return {};
 }
 
-Ranking ranking_of(const std::vector<Regions>& candidates, const RankOptions& options) {
+Ranking ranking_of(const std::vector<Regions>& named, const RankOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
+  const std::vector<Regions> candidates = at_places(named);
   Ranking out;
   if (!options.weights.empty() && options.weights.size() != options.criteria.size())
     throw InputError(fmt::format("{} weights for {} criteria: one for each is needed",
@@ -396,6 +448,7 @@ Ranking ranking_of(const std::vector<Regions>& candidates, const RankOptions& op
     if (!(w > 0)) throw InputError("a weight is more than 0; leave a criterion of weight 0 out");
   }
   for (const Regions& regions : candidates) out.titles.push_back(regions.front().title);
+  out.scans = scans_behind(named);
   out.conditions = condition_differences(candidates, options);
   out.notes = notes_of(candidates, options);
   for (std::string& note : notes_of_maps(candidates)) out.notes.push_back(std::move(note));

@@ -57,6 +57,7 @@ struct StateRanking {
 struct Ranking {
   std::vector<StateRanking> states;
   std::vector<std::string> titles;              // of the designs as given
+  std::vector<std::string> scans;               // what was changed of each measured map
   std::vector<ConditionDifference> conditions;  // empty unless any_conditions
   std::vector<std::string> notes;               // what the order leaves out, for people
   int skins = 0;                                // solved in all

@@ -78,6 +78,8 @@ std::string summary_section(const Calibration& c, const CalibrationResult& r) {
       c.data.empty() || c.check.level == c.sampling.level
           ? ""
           : fmt::format("; frictions corrected to level {} on the same skins", c.check.level));
+  if (!c.data_notes.empty())
+    out += fmt::format("Of the table of friction: {}.\n", join_names(c.data_notes, "; "));
   return out;
 }
 

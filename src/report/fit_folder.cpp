@@ -62,6 +62,9 @@ FitReport fit_to_folder(const std::string& file, const FitOptions& options) {
   std::optional<Folder> folder;
   FitReport fit;
   fit.calibration = read_calibration(file, m3_claim_ids());
+  if (options.note) {
+    for (const std::string& note : fit.calibration.data_notes) options.note(note);
+  }
   if (!options.folder.empty()) folder = Folder::made(options.folder);
   fit.result = fit_finger(fit.calibration, {options.threads, true, options.note, options.folder});
   // At once: what the fit has cost is not lost to a claim that cannot be judged.

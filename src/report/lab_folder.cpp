@@ -30,6 +30,9 @@ std::string belief_now(Lab& lab) {
     members.back().weight = weights[m] / sum;
   }
   belief.members = std::move(members);
+  for (const FrictionReading& r : lab.readings())
+    belief.readings.push_back(reading_text(r.experiment.at.load, r.experiment.at.relative_humidity,
+                                           r.experiment.at.voltage, r.off, r.on));
   belief.made_of += fmt::format("; weighted by {} of a lab",
                                 counted(static_cast<long long>(lab.readings().size()), "reading"));
   belief.effective_samples = lab.standing().effective_members;

@@ -141,6 +141,7 @@ std::string lab_told_json(const Lab& lab, const Told& told) {
               {"told", tell_json(lab, told.record)},
               {"already", told.already},
               {"already_of", told.already_of},
+              {"fitted", told.fitted},
               {"empty", told.empty},
               {"before", nullptr},
               {"after", nullptr}};

@@ -256,6 +256,11 @@ std::string lab_told_text(const Lab& lab, const Told& told) {
   if (told.already > 0)
     out += fmt::format("{}: {} told already, in {}: not counted again\n", file,
                        counted(told.already, "reading"), told.already_of);
+  if (told.fitted > 0)
+    out += fmt::format(
+        "{}: {} left out, since the belief is made of {} (`readings` in {}): counted again they "
+        "would make it surer than it is. What is measured from now on tells more\n",
+        file, counted(told.fitted, "reading"), told.fitted == 1 ? "it" : "them", lab.file().belief);
   if (told.empty > 0)
     out += fmt::format("{}: {} not measured yet, left planned\n", file, counted(told.empty, "row"));
   for (const std::string& n : told.record.notes) out += "- " + n + "\n";

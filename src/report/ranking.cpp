@@ -281,7 +281,8 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
          fmt::format(
              "all designs met the same skins ({} at least): trust the order, its leads and "
              "probabilities, not the values, which may all be high or low together, beyond their "
-             "±; errors that all designs share (grid, water) are not in ± either: papilla evaluate "
+             "±; errors of grid, method and water are not in ± either, and cancel as far as "
+             "designs are alike: papilla evaluate "
              "gives values. ± and [ ] are 95 % intervals over skins; = "
              "marks a tie with the next. {} patches of skin in all{}\n",
              fewest, ranking.skins,
@@ -317,6 +318,7 @@ std::string ranking_json(const std::vector<std::string>& names, const RankOption
            {"scored", options.scored()},
            {"conditions_differ", conditions},
            {"notes", ranking.notes},
+           {"scans", ranking.scans},
            {"criteria", criteria},
            {"candidates", states.front()["candidates"]},
            {"states", states},

@@ -192,13 +192,13 @@ std::string surfaces_text(const SurfacesView& view) {
   std::string out;
   for (const SurfaceView& map : view.maps) out += text(map.file, map.scan.changes) + '\n';
   std::vector<std::vector<std::string>> rows{
-      {"map", "um wide", "pixel nm", "Sq nm", "Sdq", "knows um", "to nm", "ended by"}};
+      {"map", "um wide", "pixel nm", "Sa nm", "Sq nm", "Sdq", "knows um", "to nm", "ended by"}};
   for (const SurfaceView& map : view.maps) {
     const Grid& g = map.scan.map.grid;
     rows.push_back(
         {map.file, fmt::format("{:.4g}", 1e6 * g.lx), fmt::format("{:.4g}", 1e9 * g.dx()),
-         fmt::format("{:.4g}", 1e9 * map.areal.sq), fmt::format("{:.3g}", map.areal.sdq),
-         fmt::format("{:.4g}", 1e6 * map.band.longest),
+         fmt::format("{:.4g}", 1e9 * map.areal.sa), fmt::format("{:.4g}", 1e9 * map.areal.sq),
+         fmt::format("{:.3g}", map.areal.sdq), fmt::format("{:.4g}", 1e6 * map.band.longest),
          fmt::format("{:.4g}", 1e9 * map.band.shortest), map.band.by_tip ? "tip" : "pixels"});
   }
   out += '\n' + aligned_table(rows, 1);

@@ -127,6 +127,7 @@ class BeliefReader {
     }
     number("samples", 1e9, out_.samples);
     number("effective_samples", 1e9, out_.effective_samples);
+    read_readings();
     out_.fitted = read_values(document_.take("fitted"), "fitted", document_);
     read_section(document_, "calibrated_for", out_.calibrated_for);
     read_members();
@@ -139,6 +140,17 @@ class BeliefReader {
   void number(const std::string& key, double most, double& value) {
     if (const Node* node = document_.take(key))
       document_.number(*node, key, {key.c_str(), "", 0, most, ""}, value);
+  }
+
+  void read_readings() {
+    const Node* list = document_.take("readings");
+    if (!list) return;
+    if (list->is_array() && std::all_of(list->children.begin(), list->children.end(),
+                                        [](const Node& n) { return n.is_text(); })) {
+      for (const Node& reading : list->children) out_.readings.push_back(reading.text);
+    } else {
+      document_.problem(list->place, "readings", "expected a list of texts");
+    }
   }
 
   void read_members() {
@@ -251,6 +263,15 @@ double Belief::effective_members() const {
   return squares > 0 ? 1 / squares : 0;
 }
 
+std::string reading_text(double load, double relative_humidity, double voltage, double off,
+                         double on) {
+  std::string out = fmt::format("{:.6g} N, {:.6g} %", load, 100 * relative_humidity);
+  if (on > 0) out += fmt::format(", {:.6g} V", voltage);
+  if (off > 0) out += fmt::format(", off {:.6g} N", off);
+  if (on > 0) out += fmt::format(", on {:.6g} N", on);
+  return out;
+}
+
 Belief read_belief(const std::string& path, const Finger& finger) {
   return BeliefReader(path, finger).read();
 }
@@ -284,6 +305,11 @@ std::string belief_text(const Belief& belief) {
   if (belief.samples > 0) root.set("samples", number_node(belief.samples));
   if (belief.effective_samples > 0)
     root.set("effective_samples", number_node(belief.effective_samples));
+  if (!belief.readings.empty()) {
+    std::vector<Node> readings;
+    for (const std::string& reading : belief.readings) readings.push_back(text_node(reading));
+    root.set("readings", array_node(std::move(readings)));
+  }
   if (!belief.fitted.empty()) root.set("fitted", table_of(belief.fitted));
   root.set("calibrated_for", to_table(belief.calibrated_for));
   std::vector<Node> members;

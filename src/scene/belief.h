@@ -32,6 +32,8 @@ struct Belief {
   std::string made_of;  // a line for people: from which data, how
   // Of the weighted samples behind the members; 0: not stated.
   double samples = 0, effective_samples = 0;
+  // Measured friction that it holds, each as reading_text: told again it would count twice.
+  std::vector<std::string> readings;
   // Of the finger that the members were found for. Where another finger has another value, a
   // member's number moves it by the same factor; a number that is not here replaces the finger's.
   std::vector<BeliefValue> fitted;
@@ -40,6 +42,11 @@ struct Belief {
 
   double effective_members() const;  // 1 / sum of the squared weights
 };
+
+// A measured friction as a line for people, by which it is known again: to six digits. SI; voltage
+// and `on` 0 where nothing is driven, `off` 0 where it was not measured.
+std::string reading_text(double load, double relative_humidity, double voltage, double off,
+                         double on);
 
 // The members' weights are above 0 and sum to 1. Throws InputError with every mistake and its
 // place: keys that the finger or the model has not, values outside of their range, conditions of

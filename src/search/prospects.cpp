@@ -79,27 +79,6 @@ MemberWorth of_members(const MemberWorth& all, const std::vector<std::size_t>& m
   return out;
 }
 
-// How much of moves is theirs, and one standard error: k where their squares, by `freedom` degrees
-// of it, are `ratio` times those of their scatter, whose share is 1 - k; any k is as likely before.
-// Eq. search.23
-Estimate share_of_moves(double ratio, double freedom) {
-  constexpr int kNodes = 200;
-  // The likelihood of 1 - k has its maximum at `most`; beyond `last` e^-40 of it is left.
-  const double most = std::min(1.0, 1 / ratio);
-  const double last = std::min(1.0, (20 + 80 / freedom) / ratio);
-  double sum = 0, first = 0, second = 0;
-  for (int i = 0; i < kNodes; ++i) {
-    const double noise = last * (i + 0.5) / kNodes;
-    const double weight =
-        std::exp(0.5 * freedom * (std::log(noise / most) - ratio * (noise - most)));
-    sum += weight;
-    first += weight * (1 - noise);
-    second += weight * square(1 - noise);
-  }
-  const double mean = first / sum;
-  return {mean, std::sqrt(std::max(0.0, second / sum - square(mean)))};
-}
-
 // Values without what they move all by alike, so that they sum up to nothing.
 std::vector<double> beyond(const std::vector<double>& alike, std::vector<double> values) {
   const double factor = total(values) / total(alike);
@@ -294,8 +273,7 @@ void shrink_moves(const std::vector<SkinnedWorth>& own, bool in_proportion, Memb
       scatter += squares(of_skins.back());
     }
     if (!(scatter > 0)) continue;
-    const Estimate kept =
-        share_of_moves(squares(moves) / scatter, freedom_of(of_skins, known.size()));
+    const Estimate kept = meant_share(squares(moves) / scatter, freedom_of(of_skins, known.size()));
     for (std::size_t k = 0; k < known.size(); ++k) {
       designs.worth[known[k]][m] -= (1 - kept.value) * moves[k];
       std::vector<double>& by_skin = designs.by_skin[known[k]][m];
@@ -324,6 +302,9 @@ std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& ri
       p.p_limits += d.keeps(i, m) ? w : 0;
       for (std::size_t k = 0; k < p.p_limit.size(); ++k) p.p_limit[k] += d.kept[i][k][m] ? w : 0;
     }
+    // Weights sum to 1 but for their last digits.
+    p.p_limits = std::min(1.0, p.p_limits);
+    for (double& kept : p.p_limit) kept = std::min(1.0, kept);
     p.merit = risk.regret ? -p.regret : apply_risk(risk.risk, true, worth, d.weights);
   }
   return out;

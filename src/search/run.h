@@ -37,7 +37,8 @@ enum class SearchEnd {
   Exhausted,  // the method had nothing more to try
   Refusals,   // the limits of the shape refused ten times the budget
   Clock,
-  Asked,  // OptimiseOptions::finish
+  Asked,   // OptimiseOptions::finish
+  Before,  // in the run that is resumed, which went on to its confirmation
 };
 
 // A part of the run that the clock cut: evaluations, designs, or 0 of 1 where it was left out.

@@ -139,7 +139,7 @@ class Searching {
 
 namespace {
 
-// A search that went on to its confirmation is over: why, follows from what it left.
+// A search that went on to its confirmation is over; a journal does not say why.
 void take_from_journal(Run& run) {
   const JudgedDesigns before = run.replay.searched_before();
   for (std::size_t i = 0; i < before.size(); ++i)
@@ -151,7 +151,7 @@ void take_from_journal(Run& run) {
                    : refused             ? SearchEnd::Refusals
                    : run.options.finish  ? SearchEnd::Asked
                    : run.clock.limited() ? SearchEnd::Clock
-                                         : SearchEnd::Exhausted;
+                                         : SearchEnd::Before;
 }
 
 }  // namespace

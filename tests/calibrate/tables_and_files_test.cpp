@@ -28,12 +28,8 @@ std::string refusal(const std::function<void()>& work) {
   return out;
 }
 
-constexpr const char* kColumns =
-    "design, relative_humidity, amplitude_V, frequency_Hz, load_N, F_off_N, F_off_sd_N, F_on_N, "
-    "F_on_sd_N";
-
 TEST_F(TablesAndFiles, ARowIsReadByItsColumnsInAnyOrder) {
-  const std::vector<FrictionDatum> rows = read_friction(
+  const FrictionTable table = read_friction(
       write("a.csv",
             "\xEF\xBB\xBF# by hand\n\n"
             "load_N,F_on_sd_N,design,F_on_N,F_off_sd_N,relative_humidity,F_off_N,amplitude_V,"
@@ -41,6 +37,8 @@ TEST_F(TablesAndFiles, ARowIsReadByItsColumnsInAnyOrder) {
             "0.3,0.02,m3_samples/flat.toml,0.25,0.01,45 %,0.125,150,2000\r\n"
             ",,,,,,,,\n"
             "0.4,,m3_samples/flat.toml,,0.03,0.5,0.2,0,\n"));
+  const std::vector<FrictionDatum>& rows = table.rows;
+  EXPECT_TRUE(table.notes.empty());
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].design, find_design("m3_samples/flat.toml"));
   EXPECT_EQ(rows[0].relative_humidity, 0.45);
@@ -60,6 +58,24 @@ TEST_F(TablesAndFiles, ARowIsReadByItsColumnsInAnyOrder) {
   EXPECT_EQ(rows[1].line, 6);
 }
 
+// A table that a lab reads is one that a fit reads: units in the header, days and repeats beside.
+TEST_F(TablesAndFiles, UnitsStandInTheHeaderAndOtherColumnsAreNamed) {
+  const FrictionTable table = read_friction(
+      write("u.csv",
+            "design;load [mN];humidity_percent;repeat;day;F_off_mN;F_off_sd_mN;F_on_mN;F_on_sd_mN;"
+            "voltage_V;frequency_kHz;photo\n"
+            "m3_samples/flat.toml;200;35;1;2026-03-02;81;4;142;6;200;5;a.jpg\n"
+            "m3_samples/flat.toml;200;75;1;2026-03-02;;;;;200;5;\n"));
+  ASSERT_EQ(table.rows.size(), 1u);
+  EXPECT_DOUBLE_EQ(table.rows[0].load, 0.2);
+  EXPECT_DOUBLE_EQ(table.rows[0].relative_humidity, 0.35);
+  EXPECT_DOUBLE_EQ(table.rows[0].off, 0.081);
+  EXPECT_DOUBLE_EQ(table.rows[0].on_sd, 0.006);
+  EXPECT_DOUBLE_EQ(table.rows[0].frequency, 5000);
+  EXPECT_EQ(table.notes, (std::vector<std::string>{"columns that are not read: photo",
+                                                   "1 row without a friction are left out"}));
+}
+
 // humidity, amplitude, frequency, load, off, its deviation, on, its deviation.
 TEST_F(TablesAndFiles, NumbersLieInTheirRanges) {
   const auto told = [&](const std::string& cells) {
@@ -69,38 +85,51 @@ TEST_F(TablesAndFiles, NumbersLieInTheirRanges) {
   };
   EXPECT_EQ(told("0,0,0,0.2,0.1,1e-9,,"), "");
   EXPECT_EQ(told("100 %,1e5,1e9,100,1000,1000,1000,1000"), "");
-  EXPECT_EQ(told("0.5,1,1,1e-6,0,1,0,1"), "");
-  EXPECT_EQ(told("1.01,0,0,0.2,0.1,1,,"), "2:2: relative_humidity: 1.01 lies outside 0 to 1\n");
+  EXPECT_EQ(told("0.5,1,1,1e-6,1e-9,1,1e-9,1"), "");
+  EXPECT_EQ(told("1.01,0,0,0.2,0.1,1,,"), "2:2: relative_humidity: 1.01 lies outside 0 to 1 \n");
   EXPECT_EQ(told("30,0,0,0.2,0.1,1,,"),
             "2:2: relative_humidity: 30 lies outside 0 to 1: write it as \"30 %\"\n");
-  EXPECT_EQ(told("-0.1,0,0,0.2,0.1,1,,"), "2:2: relative_humidity: -0.1 lies outside 0 to 1\n");
-  EXPECT_EQ(told("0.5,-1,5,0.2,0.1,1,,"), "2:3: amplitude_V: -1 lies outside 0 to 100000\n");
-  EXPECT_EQ(told("0.5,1e6,5,0.2,0.1,1,,"), "2:3: amplitude_V: 1e6 lies outside 0 to 100000\n");
-  EXPECT_EQ(told("0.5,1,2e9,0.2,0.1,1,,"), "2:4: frequency_Hz: 2e9 lies outside 0 to 1000000000\n");
-  EXPECT_EQ(told("0.5,1,,0.2,0.1,1,,"), "2:4: frequency_Hz: expected a number, got \"\"\n");
-  EXPECT_EQ(told("0.5,1,5,1e-7,0,1,,"), "2:5: load_N: 1e-7 lies outside 1e-06 to 100\n");
-  EXPECT_EQ(told("0.5,1,5,101,0.1,1,,"), "2:5: load_N: 101 lies outside 1e-06 to 100\n");
-  EXPECT_EQ(told("0.5,1,5,,0.1,1,,"), "2:5: load_N: expected a number, got \"\"\n");
-  EXPECT_EQ(told("0.5,1,5,0.2,-1,1,,"), "2:6: F_off_N: -1 lies outside 0 to 1000\n");
-  EXPECT_EQ(told("0.5,1,5,0.2,1,0,,"), "2:7: F_off_sd_N: 0 lies outside 1e-09 to 1000\n");
-  EXPECT_EQ(told("0.5,1,5,0.2,1,1,1001,1"), "2:8: F_on_N: 1001 lies outside 0 to 1000\n");
-  EXPECT_EQ(told("0.5,1,5,0.2,1,1,1,"), "2:9: F_on_sd_N: expected a number, got \"\"\n");
+  EXPECT_EQ(told("130 %,0,0,0.2,0.1,1,,"),
+            "2:2: relative_humidity: 130 % lies outside 0 to 100 %\n");
+  EXPECT_EQ(told("-0.1,0,0,0.2,0.1,1,,"), "2:2: relative_humidity: -0.1 lies outside 0 to 1 \n");
+  EXPECT_EQ(told("0.5,-1,5,0.2,0.1,1,,"), "2:3: voltage: -1 lies outside 0 to 100000 V\n");
+  EXPECT_EQ(told("0.5,1,2e9,0.2,0.1,1,,"), "2:4: frequency: 2e9 lies outside 0 to 1000000000 Hz\n");
+  EXPECT_EQ(told("0.5,1,,0.2,0.1,1,,"), "2:0: frequency: expected a number, got \"\"\n");
+  EXPECT_EQ(told("0.5,1,5,1e-7,0,1,,"),
+            "2:5: load: 1e-7 lies outside 1e-06 to 100 N\n"
+            "2:6: F_off: 0 lies outside 1e-09 to 1000 N\n");
+  EXPECT_EQ(told("0.5,1,5,101,0.1,1,,"), "2:5: load: 101 lies outside 1e-06 to 100 N\n");
+  EXPECT_EQ(told("0.5,1,5,,0.1,1,,"), "2:0: load: expected a number, got \"\"\n");
+  EXPECT_EQ(told("0.5,1,5,0.2,0.1,,,"), "2:0: F_off_sd: expected a number, got \"\"\n");
+  EXPECT_EQ(told("0.5,1,5,0.2,1,1,1,"), "2:0: F_on_sd: expected a number, got \"\"\n");
   EXPECT_EQ(told("0.5,1,5,0.2,,,1,1"),
-            "2:6: F_off_N: a row under voltage needs the friction without it too, of the same "
+            "2:0: F_off: a row under voltage needs the friction without it too, of the same "
             "touch\n");
-  EXPECT_EQ(told("0.5,1,5,0.2,1,1,1,0"), "2:9: F_on_sd_N: 0 lies outside 1e-09 to 1000\n");
   EXPECT_EQ(told("0.5,0,0,0.2,1,1,1,1"),
-            "2:8: F_on_N: a friction under voltage, but amplitude_V is 0\n");
+            "2:0: F_on: a friction under voltage, but the voltage is 0\n");
   EXPECT_EQ(told("half,1,5,0.2,1 N,1,1,1"),
             "2:2: relative_humidity: expected a number, got \"half\"\n"
-            "2:6: F_off_N: expected a number, got \"1 N\"\n");
+            "2:6: F_off: expected a number, got \"1 N\"\n");
   // Ten times the load is the most; of more than fifty times it is another unit.
   EXPECT_EQ(told("0.5,1,5,0.2,2,1,2,1"), "");
   EXPECT_EQ(told("0.5,1,5,0.2,2.1,1,10.2,1"),
-            "2:6: F_off_N: 2.1 N is 10.5 times the load of 0.2 N; no finger rubs so\n"
-            "2:8: F_on_N: 10.2 N is 51 times the load of 0.2 N; are these mN? Then 0.0102 N is "
+            "2:0: F_off: 2.1 N is 10.5 times the load of 0.2 N; no finger rubs so\n"
+            "2:0: F_on: 10.2 N is 51 times the load of 0.2 N: are these mN? Then 0.0102 N is "
             "meant\n");
   EXPECT_EQ(told("0.5,1,5,0.2,1"), "2:0: : expected 9 cells, got 6\n");
+  EXPECT_EQ(told("0.5,0,0,0.2,,,,"), "1:0: F_off: no row has a friction\n");
+}
+
+TEST_F(TablesAndFiles, ATableIsOfOneFingerInOneState) {
+  const std::string head = "design,load_N,humidity_percent,F_off_N,F_off_sd_N,finger,state\n",
+                    row = "m3_samples/flat.toml,0.2,35,0.1,0.01,";
+  const auto told = [&](const std::string& rows) {
+    return refusal([&] { read_friction(write("f.csv", head + rows)); });
+  };
+  EXPECT_EQ(told(row + "Ada,clean\n" + row + "Ada,clean\n"), "");
+  EXPECT_EQ(told(row + "Ada,clean\n" + row + "Ben,natural\n"),
+            "3:0: finger: \"Ben\", and \"Ada\" in line 2: a fit is of one finger, so a table each\n"
+            "3:0: state: another than in line 2: a fit is of one state, so a table each\n");
 }
 
 TEST_F(TablesAndFiles, AFileWithoutAHeadOrRowsIsRefused) {
@@ -110,26 +139,41 @@ TEST_F(TablesAndFiles, AFileWithoutAHeadOrRowsIsRefused) {
   EXPECT_EQ(told(""), "0:0: : no header line\n");
   EXPECT_EQ(told("# nothing\n\n"), "2:0: : no header line\n");
   EXPECT_EQ(told(kHeader), "1:0: : no rows below the header\n");
-  EXPECT_EQ(told("design;load_N\n"), "1:0: : the separator is a comma, decimals a point\n");
-  EXPECT_EQ(told("design\tload_N\n"), "1:0: : the separator is a comma, decimals a point\n");
-  EXPECT_EQ(told(std::string("extra,") + kHeader),
-            fmt::format("1:0: extra: unknown column; expected {}\n", kColumns));
+}
+
+// However many rows there are, what no row has is said once.
+TEST_F(TablesAndFiles, MissingColumnsAreSaidOnceWithWhatStandsThere) {
+  EXPECT_EQ(refusal([&] {
+              read_friction(write("p.csv",
+                                  "plate,load_N,humidity_percent,F_off_N,F_off_sd_N,F_on_N\n"
+                                  "A,0.2,35,0.1,0.01,0.2\nB,0.2,35,0.1,0.01,0.2\n"));
+            }),
+            "1:0: design: no such column: the file of the surface, beside the table or a shipped "
+            "one; columns that are not read: plate\n"
+            "1:0: F_on_sd: no such column: write F_on_sd_N, one standard deviation of the value; "
+            "columns that are not read: plate\n"
+            "1:0: voltage: no such column: write voltage_V, the amplitude; columns that are not "
+            "read: plate\n"
+            "1:0: frequency: no such column: write frequency_Hz; columns that are not read: "
+            "plate\n");
 }
 
 // A design beside the table comes before one of the same name among the designs.
 TEST_F(TablesAndFiles, ADesignBesideItsTableComesFirst) {
   std::filesystem::create_directories(folder_ + "/m3_samples");
   const std::string own = write("m3_samples/flat.toml", "schema_version = 1\n");
-  const auto rows = read_friction(
-      write("d.csv", std::string(kHeader) + "m3_samples/flat.toml,0.5,0,0,0.2,0.1,1,,\n"
-                                            "m3_samples/a3h350.toml,0.5,0,0,0.2,0.1,1,,\n"));
+  const auto rows =
+      read_friction(write("d.csv", std::string(kHeader) +
+                                       "m3_samples/flat.toml,0.5,0,0,0.2,0.1,1,,\n"
+                                       "m3_samples/a3h350.toml,0.5,0,0,0.2,0.1,1,,\n"))
+          .rows;
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].design, own);
   EXPECT_EQ(rows[1].design, find_design("m3_samples/a3h350.toml"));
   EXPECT_EQ(refusal([&] {
               read_friction(write("e.csv", std::string(kHeader) + ",0.5,0,0,0.2,0.1,1,,\n"));
             }),
-            "2:1: design: no file \"\" beside the table\n");
+            "2:0: design: no file \"\" beside the table\n");
 }
 
 constexpr const char* kHead = "schema_version = 1\nfinger = \"fingers/reference.toml\"\n";

@@ -240,12 +240,13 @@ TEST(Scans, EveryCommandSaysOnceAndInTheSameWordsWhatItChanged) {
         "export s.toml --format npy --pixels 64 --out e"}) {
     const Outcome run = place.run(command);
     EXPECT_EQ(run.status, 0) << command << run.err;
-    // A texture of the map is its middle.
+    // A texture of the map is a part of it.
     const bool texture = command.find("s.toml") != std::string::npos;
-    EXPECT_EQ(said(run), words + (texture ? "; of its 16 x 16 um the middle 12 um are the texture "
-                                            "(texture.patch), blended along two borders with "
-                                            "what lies beyond, so that it repeats"
-                                          : ""))
+    EXPECT_EQ(said(run),
+              words + (texture ? "; of its 16 x 16 um a square of 12 um is the texture "
+                                 "(texture.patch, at_x, at_y), blended along two borders with "
+                                 "what lies beyond, so that it repeats"
+                               : ""))
         << command << run.err;
   }
   const auto haze = json::parse(place.run("solve haze --json --fill --height s.gsf").out);

@@ -24,12 +24,14 @@ TEST(TakenParts, AreSaidWhereThePatchIsShorterThanTheLongerSide) {
   EXPECT_FALSE(says_part(12e-6, 12e-6, 0));  // of a skin: each window takes its own
   DesignScan scan{"a.gsf", {}, 12e-6};
   scan.changes.width = 25.6e-6, scan.changes.height = 20e-6, scan.changes.as_is = true;
-  EXPECT_EQ(text(scan),
-            "a.gsf: taken as it is, neither levelled nor mended; of its 25.6 x 20 um the middle 12 "
-            "um are the texture (texture.patch)");
+  EXPECT_EQ(
+      text(scan),
+      "a.gsf: taken as it is, neither levelled nor mended; of its 25.6 x 20 um a square of 12 "
+      "um is the texture (texture.patch, at_x, at_y)");
   scan.changes.as_is = false;
-  EXPECT_NE(text(scan).find(" um are the texture (texture.patch), blended along two borders with "
-                            "what lies beyond, so that it repeats"),
+  EXPECT_NE(text(scan).find(
+                " um is the texture (texture.patch, at_x, at_y), blended along two borders with "
+                "what lies beyond, so that it repeats"),
             std::string::npos)
       << text(scan);
 }

@@ -10,11 +10,11 @@
 #include "claims/claim.h"
 #include "config/describe.h"
 #include "design/study.h"
-#include "lab/measured_table.h"
 #include "lab/trace_file.h"
 #include "lab/trace_reading.h"
 #include "optim/journal.h"
 #include "report/receipts.h"
+#include "scene/measured_table.h"
 #include "search/protocol.h"
 #include "tests/fuzz/targets.h"
 #include "tests/lab/tribometer.h"
@@ -71,7 +71,7 @@ inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
                   "N\nm3_samples/flat.toml,15 %,200,5000,0.2,0.06,0.004,0.09,0.005\n"
                   "m3_samples/flat.toml,0.75,200,5000,0.2,0.13,0.01,,\n"},
                  from_file(folder + "/friction.csv", [](const std::string& path) {
-                   for (const FrictionDatum& d : read_friction(path)) {
+                   for (const FrictionDatum& d : read_friction(path).rows) {
                      for (double v : {d.relative_humidity, d.amplitude, d.frequency, d.load, d.off,
                                       d.off_sd, d.on, d.on_sd})
                        require_finite(v, "a cell of the table");
@@ -87,7 +87,7 @@ inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
         "E02,A4,flat,Ada,2,clean,1,0.2,75,200,5000,130,10,,\n",
         "design;repeat;load [N];relative_humidity;F_off [N]\nflat;2;0.2;15 %;0.06\n"},
        [](const std::string& bytes) {
-         for (const lab::MeasuredRow& r : lab::read_measured_table(bytes, "table").rows) {
+         for (const MeasuredRow& r : read_measured_table(bytes, "table").rows) {
            for (const auto& v : {r.load, r.relative_humidity, r.voltage, r.frequency, r.off,
                                  r.off_sd, r.on, r.on_sd})
              require_finite(v.value_or(0), "a cell of the table");

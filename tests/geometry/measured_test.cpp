@@ -12,6 +12,7 @@
 #include "geometry/io/files.h"
 #include "geometry/measured_map.h"
 #include "geometry/texture.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests::measured_test {
@@ -30,7 +31,7 @@ double top() { return wave(0.025e-6, 0.025e-6); }
 // The cut of a map that a file holds, `change` made to it before.
 Heightmap cut_of(const std::string& name,
                  const std::function<double(double x, double y, double z)>& change,
-                 bool level = false) {
+                 bool level = false, const MapPlace& at = {}) {
   const Grid whole{400, 320, kWidth, kHeight};
   Heightmap map{whole, std::vector<double>(whole.size())};
   for (int iy = 0; iy < whole.ny; ++iy) {
@@ -46,6 +47,7 @@ Heightmap cut_of(const std::string& name,
   measured.width = kWidth;
   measured.patch = kPatch;
   measured.level = level;
+  measured.at_x = at.x, measured.at_y = at.y;
   return generate(Texture{measured}, Grid{96, 96, kPatch, kPatch});
 }
 
@@ -66,6 +68,33 @@ TEST(MeasuredMap, TheCutIsFromTheMiddle) {
       ASSERT_NEAR(h(ix, iy) + top(), wave(x0 + h.grid.x(ix), y0 + h.grid.y(iy)), 2e-9)
           << ix << " " << iy;
   }
+}
+
+TEST(MeasuredMap, TheCutIsWhereItIsAskedForAndNotBeyondTheMap) {
+  const MapPlace at{3e-6, -1.5e-6};
+  const Heightmap h = cut_of("placed", as_it_is, false, at);
+  const double x0 = 0.5 * (kWidth - kPatch) + at.x, y0 = 0.5 * (kHeight - kPatch) + at.y;
+  for (int iy = 0; iy < 84; ++iy) {
+    for (int ix = 0; ix < 84; ++ix)
+      ASSERT_NEAR(h(ix, iy) + top(), wave(x0 + h.grid.x(ix), y0 + h.grid.y(iy)), 2e-9)
+          << ix << " " << iy;
+  }
+  EXPECT_NE(refusal_of([] {
+              cut_of("beyond", as_it_is, false, {0, 2.5e-6});
+            }).find("reaches 0.5 um beyond the map"),
+            std::string::npos);
+}
+
+// 20 x 16 um: patches of 8 um have two places along x, one along y.
+TEST(MeasuredMap, HasTwoPlacesAlongASideThatLeavesRoomForTheirSeams) {
+  cut_of("places", [](double x, double y, double z) { return z + 0.05 * x + 0.02 * y; });
+  const ScanSource source{temporary("places.npy"), kWidth};
+  EXPECT_EQ(places_of_map(source, 12e-6), (std::vector<MapPlace>{{0, 0}}));
+  EXPECT_EQ(places_of_map(source, 8e-6), (std::vector<MapPlace>{{-5e-6, 0}, {5e-6, 0}}));
+  EXPECT_EQ(places_of_map(source, 6e-6).size(), 4u);
+  ScanSource repeats = source;
+  repeats.as_is = true;
+  EXPECT_EQ(places_of_map(repeats, 6e-6).size(), 1u);
 }
 
 TEST(MeasuredMap, ATiltOfAnArrayIsTakenAwayWhereThatIsAskedFor) {

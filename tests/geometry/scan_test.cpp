@@ -224,13 +224,13 @@ TEST(MiddleOfAMap, IsTheMapItselfWhereItIsKnown) {
   const std::string file = temporary("known.gsf");
   write_gsf(file, h, {});
   const ScanSource source{file, 0, false, true};
-  const Heightmap same = middle_of_map(source, 9e-6, kGrid);
+  const Heightmap same = patch_of_map(source, 9e-6, {}, kGrid);
   for (std::size_t i = 0; i < h.z.size(); ++i)
     ASSERT_EQ(same.z[i], static_cast<double>(static_cast<float>(h.z[i])));
   EXPECT_EQ(changes_of_map(source).as_is, true);
   // Finer pixels, a part of it about its middle: 6.5 um and 1 um from the corner.
   const Grid part{84, 70, 7e-6, 7e-6};
-  const Heightmap cut = middle_of_map(source, 7e-6, part);
+  const Heightmap cut = patch_of_map(source, 7e-6, {}, part);
   for (int iy = 0; iy < part.ny; ++iy) {
     for (int ix = 0; ix < part.nx; ++ix) {
       ASSERT_NEAR(cut(ix, iy), 1e-3 * (6.5e-6 + part.x(ix)) - 2e-3 * (1e-6 + part.y(iy)), 1e-14);
@@ -238,7 +238,7 @@ TEST(MiddleOfAMap, IsTheMapItselfWhereItIsKnown) {
   }
   // The border's value holds beyond the centres of the last pixels.
   const Grid whole{800, 480, 20e-6, 9e-6};
-  const Heightmap fine = middle_of_map(source, 9e-6, whole);
+  const Heightmap fine = patch_of_map(source, 9e-6, {}, whole);
   EXPECT_EQ(fine(0, 0), same(0, 0));
   EXPECT_EQ(fine(799, 479), same(199, 119));
 }
@@ -251,7 +251,7 @@ TEST(MiddleOfAMap, OneThatRepeatsIsTiledOverOtherSides) {
   };
   const std::string file = temporary("tile.gsf");
   write_gsf(file, map_of(grid, lattice), {});
-  const Heightmap h = middle_of_map({file, 0, false, true}, 6e-6, oblong);
+  const Heightmap h = patch_of_map({file, 0, false, true}, 6e-6, {}, oblong);
   for (int iy = 0; iy < oblong.ny; ++iy) {
     for (int ix = 0; ix < oblong.nx; ++ix)
       ASSERT_NEAR(h(ix, iy), lattice(oblong.x(ix), oblong.y(iy)), 1e-14) << ix << " " << iy;
@@ -265,7 +265,7 @@ TEST(MiddleOfAMap, ALargerPixelIsTheMeanOverItsArea) {
       map_of(fine, [&](double x, double y) { return 50e-9 * (std::cos(k * x) + std::cos(k * y)); });
   const std::string file = temporary("fine.gsf");
   write_gsf(file, h, {});
-  const Heightmap cut = middle_of_map({file, 0, false, true}, 8e-6, coarse);
+  const Heightmap cut = patch_of_map({file, 0, false, true}, 8e-6, {}, coarse);
   const auto mean = [&](double pixel) { return std::sin(0.5 * k * pixel) / (0.5 * k * pixel); };
   for (int iy = 0; iy < coarse.ny; ++iy) {
     for (int ix = 0; ix < coarse.nx; ++ix) {
@@ -286,7 +286,7 @@ TEST(MiddleOfAMap, RepeatsWithoutAStepAndIsTheMapElsewhere) {
   const std::string file = temporary("odd.gsf");
   write_gsf(file, h, {});
   const Scan scan = read_scan({file, 0});
-  const Heightmap cut = middle_of_map({file, 0}, 7e-6, part);
+  const Heightmap cut = patch_of_map({file, 0}, 7e-6, {}, part);
   double inside = 0, across = 0, step = 0;
   for (int i = 0; i < 140; ++i) {
     for (int k = 1; k < 140; ++k)
@@ -329,7 +329,7 @@ TEST(MeasuredMap, OneThatIsTooSmallIsRefusedWithItsSides) {
   const std::string file = temporary("small.gsf");
   write_gsf(file, map_of(kGrid, waves), {});
   const auto middle = [&](double patch) {
-    return refusal_of([&] { middle_of_map({file, 0}, patch, {32, 32, patch, patch}); });
+    return refusal_of([&] { patch_of_map({file, 0}, patch, {}, {32, 32, patch, patch}); });
   };
   EXPECT_EQ(middle(9e-6), "");
   EXPECT_EQ(middle(9.1e-6),

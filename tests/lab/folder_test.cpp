@@ -95,6 +95,25 @@ TEST_F(LabFolder, CountsATableOnceHoweverOftenItIsTold) {
   EXPECT_EQ(file_text(folder_ + "/belief.toml"), belief);
 }
 
+TEST_F(LabFolder, LeavesOutWhatItsBeliefIsMadeOf) {
+  const std::string prior = folder_ + "/prior.toml";
+  Belief belief = read_belief(prior);
+  belief.readings = {reading_text(0.2, 0.37, 200, 0.06, 0.09)};
+  write_text(prior, belief_text(belief));
+  const std::string fitted = "deep,1,0.2,37,200,1,0.06,0.09\n";
+  TellReport told = tell({file("fitted.csv", kHead + fitted)});
+  EXPECT_NE(told.markdown.find("1 reading left out, since the belief is made of it"),
+            std::string::npos)
+      << told.markdown;
+  EXPECT_EQ(readings(), 0u);
+  told = tell({file("more.csv", kHead + fitted + "deep,2,0.2,37,200,1,0.061,0.09\n")});
+  EXPECT_NE(told.markdown.find("1 reading told"), std::string::npos) << told.markdown;
+  EXPECT_EQ(readings(), 1u);
+  // What a lab has weighed is in the belief that it leaves.
+  EXPECT_EQ(read_belief(folder_ + "/belief.toml").readings,
+            (std::vector{belief.readings.front(), reading_text(0.2, 0.37, 200, 0.061, 0.09)}));
+}
+
 TEST_F(LabFolder, TakesHalfATableAndThenTheRestOfIt) {
   const std::string first = "deep,1,0.2,35,200,1,0.06,0.09\n", second = "deep,2,0.2,35,200,1,,\n",
                     later = "deep,2,0.2,35,200,1,0.061,0.091\n";

@@ -5,6 +5,7 @@
 
 #include "base/constants.h"
 #include "metrics/metrics.h"
+#include "numerics/statistics.h"
 
 namespace papilla::tests::belief_test {
 namespace {
@@ -121,7 +122,9 @@ TEST(BeliefValues, WhatSkinsScatterIsTakenOff) {
   member(0.5, 1.2, 1.1, 1.3);
   member(0.5, 0.8, 0.9, 0.7);
   const auto v = *belief_values(Summary::Mean, kModulation, r);
-  EXPECT_NEAR(v.deviation(), std::sqrt(square(0.2) - square(0.1)), 1e-12);
+  const double share = std::sqrt(meant_share(4, 2, 2).value);
+  EXPECT_NEAR(v.deviation(), 0.2 * share, 1e-12);
+  EXPECT_NEAR(v.quantile(0) - v.quantile(1), -0.4 * share, 1e-12);
 }
 
 TEST(BeliefValues, QuantilesAreOfTheWeights) {

@@ -219,8 +219,10 @@ TEST(Summaries, StepsAreHalvedAndJackknifed) {
   // 2, without each 2.5 and 1.5: samples 2 - 0.5 and 2 + 0.5.
   const StepSamples samples = step_samples({one, one}, value).value();
   EXPECT_EQ(samples, (StepSamples{{1.5, 2.5}, {1.5, 2.5}}));
-  EXPECT_NEAR(step_error(samples), std::sqrt(2 * (4 - 0.25)), 1e-12);
-  EXPECT_EQ(step_error({{1, -1}}), 0);  // scatters by more than it is
+  EXPECT_NEAR(step_error(samples), std::sqrt(2 * 4 * meant_share(4 / 0.25, 2, 2).value), 1e-12);
+  EXPECT_EQ(step_error({{1, -1}}), 0);    // nothing moves
+  EXPECT_GT(step_error({{1, -0.9}}), 0);  // scatters by more than it is: not known, not 0
+  EXPECT_LT(step_error({{1, -0.9}}), 0.05);
   EXPECT_EQ(step_error({{-3}}), 3);
   EXPECT_EQ(step_error({}), 0);
   EXPECT_TRUE(step_samples({}, value)->empty());

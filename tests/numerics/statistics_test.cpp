@@ -71,6 +71,17 @@ TEST(Statistics, TheJackknifeOfAMeanIsItsSamples) {
   EXPECT_EQ(jackknife_samples(3, {}), std::vector<double>{3});
 }
 
+// Closed forms of two degrees of freedom: of a known scatter, and of one that two samples know.
+TEST(Statistics, TheMeantShareIsTheMeanOfItsPosterior) {
+  const double e = std::exp(1.0);
+  EXPECT_NEAR(meant_share(1, 2).value, 1 - (2 - 5 / e) / (1 - 2 / e), 1e-6);
+  EXPECT_NEAR(meant_share(1, 2, 2).value, 1 - (1.5 - 2 * std::log(2)) / (std::log(2) - 0.5), 1e-6);
+  // Nothing but scatter leaves a part of it, by its degrees of freedom; no scatter takes nothing.
+  EXPECT_NEAR(meant_share(1e-9, 4).value, 0.25, 1e-6);
+  EXPECT_NEAR(meant_share(1e12, 4, 2).value, 1, 1e-9);
+  EXPECT_EQ(meant_share(0, 4).value, 0);
+}
+
 TEST(Statistics, QuantilesInterpolateBetweenSortedValues) {
   const std::vector<double> values{4, 1, 3, 2};
   for (const auto& [p, expected] : {std::pair{0.0, 1.0},

@@ -120,11 +120,11 @@ TEST(Scores, LuckInCommonLeavesNoOrderOpen) {
   EXPECT_LT((Scores{{{1, 9, 5}, {8.9, 0.9, 4.9}}, {}}.probabilities(0)[0]), 0.6);
 }
 
-// Two that skins tell apart by one, and whose steps of the finger move them apart by two, of which
-// the skins leave one open: the root of three is the finger's.
+// Two that skins tell apart by one, and whose steps of the finger move them apart by two, which
+// two skins know to one.
 TEST(Scores, WhatTheSkinsScatterOfTheStepsIsTakenOffTheProbabilities) {
   const Scores s{{{5, 5}, {4, 4}}, {{{1, 3}}, {{0, 0}}}};
-  const double ahead = normal_cdf(1 / std::sqrt(3.0));
+  const double ahead = normal_cdf(1 / (2 * std::sqrt(meant_share(4, 1, 2).value)));
   EXPECT_NEAR(s.probability_ahead(0, 1), ahead, 1e-6);
   const std::vector<double> best = s.probabilities(3);
   EXPECT_NEAR(best[0], ahead, 0.02);

@@ -51,7 +51,12 @@ TEST_F(BeliefFile, ReadsItsMembersAndTheirWeights) {
   EXPECT_EQ(b.members[1].hypothesis, "persson");
   EXPECT_NEAR(b.members[0].weight, 0.25, 1e-15);
   EXPECT_NEAR(b.effective_members(), 1 / (0.0625 + 0.5625), 1e-12);
-  const Belief again = read_belief(write("again.toml", belief_text(b)));
+  Belief measured = b;
+  measured.readings = {reading_text(0.5, 0.45, 0, 0.31, 0),
+                       reading_text(0.5, 0.45, 200, 0.31, 0.45123567)};
+  EXPECT_EQ(measured.readings[1], "0.5 N, 45 %, 200 V, off 0.31 N, on 0.451236 N");
+  const Belief again = read_belief(write("again.toml", belief_text(measured)));
+  EXPECT_EQ(again.readings, measured.readings);
   ASSERT_EQ(again.members.size(), 2u);
   for (std::size_t k = 0; k < 2; ++k) {
     const MemberScene a = with_member(b, b.members[k], {}, {}),
@@ -101,6 +106,12 @@ TEST_F(BeliefFile, MistakesAreToldWithTheirPlaces) {
   wrong("\"model.closure\" = \"perssn\"", "did you mean \"persson\"", 5);
   wrong("\"load\" = \"1 N\"", "a condition of the experiment", 5);
   wrong("\"water.scale\" = -1.0", "outside", 5);
+}
+
+TEST_F(BeliefFile, ReadingsAreAListOfTexts) {
+  const auto found = problems(std::string("readings = [0.5]\n") + kTwo);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].message.find("a list of texts"), std::string::npos) << found[0].text();
 }
 
 TEST_F(BeliefFile, WeightsAreAboveZeroAndSumToOne) {

@@ -230,6 +230,10 @@ TEST(Remarks, TheClockComesFirstAndSaysWhatItLeavesUnsure) {
       << remarks[0];
   EXPECT_NE(remarks[0].find("tolerances are not known"), std::string::npos);
   result.cuts.clear();
+  result.end = SearchEnd::Before;
+  EXPECT_EQ(run_remarks(study, problem, result).at(0),
+            "12 evaluations where 40 were asked for: the search of the run that was resumed had "
+            "ended. More of them are another run, in a folder of its own.");
   result.end = SearchEnd::Exhausted;
   EXPECT_EQ(run_remarks(study, problem, result).at(0),
             "12 evaluations where 40 were asked for: the search had nothing more to try.");

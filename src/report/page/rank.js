@@ -125,7 +125,9 @@ function showCompared() {
   const keys = [...new Set(values.flatMap((m) => [...m.keys()]))];
   const differ = keys.filter((k) => new Set(values.map((m) => m.get(k))).size > 1);
   table($('differences'), ['differs'].concat(designs.map((d) => d.name)), differ.map((k) => [k].concat(values.map((m) => m.get(k) || '–'))));
-  $('common').textContent = `${keys.length - differ.length} more values of texture, surface, finger, environment and drive are the same in all; the folder designs/ holds them.`;
+  const alike = ['finger: load', 'finger: state', 'surface: contact angle', 'surface: modulus', 'environment: relative humidity', 'drive: amplitude', 'texture: patch'].filter((k) => keys.includes(k) && !differ.includes(k));
+  $('common').textContent = (alike.length ? `The same in all: ${alike.map((k) => k.split(': ')[1] + ' ' + values[0].get(k)).join(', ')}, and ` : '') + `${keys.length - differ.length - alike.length} more values of texture, surface, finger, environment and drive; the folder designs/ holds them.`;
+  ranking.scans.forEach((scan) => { $('scans').appendChild(document.createElement('li')).textContent = scan + '.'; });
 }
 
 function select(index) {

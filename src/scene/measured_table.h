@@ -1,7 +1,8 @@
-// Tables of what was measured, as they stand in a file: the plan filled in, a wafer's manifest, or
-// a table with the columns of `papilla calibrate`.
+// Tables of what was measured, as they stand in a file: a user's own, the plan of a lab filled in,
+// a wafer's manifest.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,7 +11,7 @@
 #include "base/rooms.h"
 #include "scene/finger.h"
 
-namespace papilla::lab {
+namespace papilla::scene {
 
 // A line; SI. What its cell is empty of, or the table has no column of, is not there.
 struct MeasuredRow {
@@ -26,14 +27,19 @@ struct MeasuredRow {
 
 struct MeasuredTable {
   std::vector<MeasuredRow> rows;
-  std::vector<std::string> notes;  // for people: what was not read
-  bool has_friction = false;       // a column of it
+  std::vector<std::string> notes;            // for people: what was not read
+  bool has_friction = false;                 // a column of it
+  std::vector<std::string> columns, unread;  // "load", "F_off_sd"; what it has beside them
+
+  bool has(const std::string& column) const {
+    return std::find(columns.begin(), columns.end(), column) != columns.end();
+  }
 };
 
 // Columns by name and unit in any order; further ones are told and not read. Throws InputError with
 // every mistake and its line: a unit that is none, a column that nearly has a known name, a number
-// that is none or lies outside of what a finger does, F_on below F_off on average, a line that is
-// cut off.
+// that is none or lies outside of what a finger does, a friction beyond ten times the load, F_on
+// below F_off on average, a line that is cut off.
 MeasuredTable read_measured_table(std::string_view text, const std::string& file);
 
-}  // namespace papilla::lab
+}  // namespace papilla::scene

@@ -1,10 +1,11 @@
 // Tables of measured friction, right and wrong.
+#include "scene/measured_table.h"
+
 #include <gtest/gtest.h>
 
-#include "lab/measured_table.h"
 #include "tests/support/refusal.h"
 
-namespace papilla::tests::table_test {
+namespace papilla::tests::measured_table_test {
 namespace {
 
 MeasuredTable table(const std::string& text) { return read_measured_table(text, "table.csv"); }
@@ -85,4 +86,4 @@ TEST(MeasuredTable, AsksWhetherAFileWithoutItsLastLineEndIsWhole) {
 }
 
 }  // namespace
-}  // namespace papilla::tests::table_test
+}  // namespace papilla::tests::measured_table_test

@@ -1,4 +1,4 @@
-#include "lab/columns.h"
+#include "config/columns.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "base/text.h"
 #include "base/units.h"
 
-namespace papilla::lab {
+namespace papilla::config {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -47,7 +47,7 @@ NameAndUnit parted(std::string_view cell, const std::vector<ColumnKind>& kinds) 
 
 }  // namespace
 
-Column read_column(std::string_view cell, const std::vector<ColumnKind>& kinds) {
+TableColumn read_column(std::string_view cell, const std::vector<ColumnKind>& kinds) {
   const NameAndUnit is = parted(cell, kinds);
   const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const ColumnKind& k) {
     return k.name == is.name || std::find(k.also.begin(), k.also.end(), is.name) != k.also.end();
@@ -71,14 +71,14 @@ Column read_column(std::string_view cell, const std::vector<ColumnKind>& kinds) 
 
 bool Header::has(const ColumnKind& kind) const {
   return std::any_of(columns.begin(), columns.end(),
-                     [&](const Column& c) { return c.kind == &kind; });
+                     [&](const TableColumn& c) { return c.kind == &kind; });
 }
 
 Header read_header(const std::vector<std::string_view>& cells,
                    const std::vector<ColumnKind>& kinds) {
   Header out;
   for (const std::string_view cell : cells) {
-    Column column;
+    TableColumn column;
     try {
       column = read_column(cell, kinds);
       if (!column.kind) out.unread.emplace_back(cell);
@@ -159,4 +159,4 @@ bool Lines::next(std::string_view& line) {
   return true;
 }
 
-}  // namespace papilla::lab
+}  // namespace papilla::config

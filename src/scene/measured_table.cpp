@@ -1,4 +1,4 @@
-#include "lab/measured_table.h"
+#include "scene/measured_table.h"
 
 #include <fmt/format.h>
 
@@ -8,13 +8,14 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "lab/columns.h"
+#include "config/columns.h"
 
-namespace papilla::lab {
+namespace papilla::scene {
 namespace {
 
-// No skin rubs at ten times its load (coefficients are 0.1 to 3): it is another unit.
-constexpr double kLargestCoefficient = 10;
+// No skin rubs at ten times its load (coefficients are 0.1 to 3), and what is beyond fifty times it
+// is another unit.
+constexpr double kLargestCoefficient = 10, kCoefficientOfAnotherUnit = 50;
 // Humidity in percent below this is meant as a share.
 constexpr double kLeastHumidity = 0.01;
 
@@ -71,7 +72,7 @@ class TableReader {
     if (problems_.empty()) check_order();
     if (!problems_.empty()) throw InputError(problems_);
     if (lines_.ended_within())
-      out_.notes.push_back("the last line has no line end: is the file whole?");
+      out_.notes.emplace_back("the last line has no line end: is the file whole?");
     return std::move(out_);
   }
 
@@ -84,29 +85,34 @@ class TableReader {
     Header found = read_header(cells, table_kinds());
     columns_ = found.columns;
     for (const auto& [cell, message] : found.problems) problem(cell, message);
-    for (const Column& column : columns_) {
+    for (const TableColumn& column : columns_) {
       if (!column.kind) continue;
+      out_.columns.push_back(column.kind->name);
       const Kind kind = kind_of(column);
       out_.has_friction |= kind == Kind::Off || kind == Kind::On;
     }
     // A word that is nearly one of a column is that column, mistyped.
     if (problems_.empty())
       std::erase_if(found.unread, [&](const std::string& c) { return is_mistyped(c); });
+    out_.unread = found.unread;
     if (!found.unread.empty()) out_.notes.push_back(unread_note(found));
   }
 
   bool is_mistyped(const std::string& cell) {
     std::vector<std::string> known;
-    for (const ColumnKind& kind : table_kinds())
+    for (const ColumnKind& kind : table_kinds()) {
+      // A text that is not read is named; short words are near each other.
+      if (kind.is_text && kind.name != "relative_humidity" && kind.name != "design") continue;
       known.push_back(kind.name + (kind.unit.empty()  ? ""
                                    : kind.unit == "%" ? "_percent"
                                                       : "_" + kind.unit));
+    }
     const std::string near = nearest_name(cell, known);
     if (!near.empty()) problem(cell, fmt::format("no such column, is it `{}`?", near));
     return !near.empty();
   }
 
-  static Kind kind_of(const Column& column) {
+  static Kind kind_of(const TableColumn& column) {
     return static_cast<Kind>(column.kind - table_kinds().data());
   }
 
@@ -126,7 +132,7 @@ class TableReader {
     out_.rows.push_back(std::move(r));
   }
 
-  void take(MeasuredRow& r, const Column& column, std::string_view cell, int place) {
+  void take(MeasuredRow& r, const TableColumn& column, std::string_view cell, int place) {
     switch (kind_of(column)) {
       case Kind::Experiment:
         r.experiment = cell;
@@ -179,8 +185,8 @@ class TableReader {
     }
   }
 
-  std::optional<double> number(const Column& column, std::string_view cell, int place, double low,
-                               double high) {
+  std::optional<double> number(const TableColumn& column, std::string_view cell, int place,
+                               double low, double high) {
     const auto value = cell_number(cell);
     if (!value) {
       problem(column.kind->name, fmt::format("expected a number, got \"{}\"", cell), place);
@@ -196,7 +202,7 @@ class TableReader {
     return si;
   }
 
-  std::optional<double> humidity(const Column& column, std::string_view cell, int place) {
+  std::optional<double> humidity(const TableColumn& column, std::string_view cell, int place) {
     const auto value = number(column, cell, place, 0, 1);
     if (value && *value > 0 && *value < kLeastHumidity)
       problem("humidity",
@@ -207,9 +213,17 @@ class TableReader {
   }
 
   // "15 %" or 0.15, as `papilla calibrate` takes it.
-  std::optional<double> share(const Column& column, std::string_view cell, int place) {
-    if (const auto q = parse_quantity(cell); q && q->unit == "%") return q->si;
-    return number(column, cell, place, 0, 1);
+  std::optional<double> share(const TableColumn& column, std::string_view cell, int place) {
+    if (const auto q = parse_quantity(cell); q && q->unit == "%") {
+      if (q->si >= 0 && q->si <= 1) return q->si;
+      problem("relative_humidity", fmt::format("{} lies outside 0 to 100 %", cell), place);
+      return std::nullopt;
+    }
+    const auto value = cell_number(cell);
+    if (!value || *value < 2 || *value > 100) return number(column, cell, place, 0, 1);
+    problem("relative_humidity",
+            fmt::format("{} lies outside 0 to 1: write it as \"{} %\"", cell, cell), place);
+    return std::nullopt;
   }
 
   std::optional<FingerState> state(std::string_view cell, int place) {
@@ -224,9 +238,12 @@ class TableReader {
     if (r.on && r.voltage == 0.0) problem("F_on", "a friction under voltage, but the voltage is 0");
     for (const auto& [name, force] : {std::pair("F_off", r.off), std::pair("F_on", r.on)}) {
       if (!force || !r.load || *force <= kLargestCoefficient * *r.load) continue;
-      problem(name, fmt::format("{} N is {} times the load of {} N: are these mN?",
-                                significant(*force, 4), significant(*force / *r.load, 3),
-                                significant(*r.load, 3)));
+      problem(name, fmt::format("{} N is {} times the load of {} N{}", significant(*force, 4),
+                                significant(*force / *r.load, 3), significant(*r.load, 3),
+                                *force > kCoefficientOfAnotherUnit * *r.load
+                                    ? fmt::format(": are these mN? Then {} N is meant",
+                                                  significant(*force / 1000, 4))
+                                    : "; no finger rubs so"));
     }
   }
 
@@ -246,7 +263,7 @@ class TableReader {
 
   Lines lines_;
   std::string file_;
-  std::vector<Column> columns_;
+  std::vector<TableColumn> columns_;
   std::vector<Problem> problems_;
   MeasuredTable out_;
 };
@@ -257,4 +274,4 @@ MeasuredTable read_measured_table(std::string_view text, const std::string& file
   return TableReader(text, file).read();
 }
 
-}  // namespace papilla::lab
+}  // namespace papilla::scene

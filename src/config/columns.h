@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/rooms.h"
 
-namespace papilla::lab {
+namespace papilla::config {
 
 // A quantity that a table may have a column of.
 struct ColumnKind {
@@ -22,14 +22,14 @@ struct ColumnKind {
   std::vector<std::string> also{};  // other names of it
 };
 
-struct Column {
+struct TableColumn {
   const ColumnKind* kind = nullptr;
   double to_si = 1;
 };
 
 // What a header cell stands for; null kind: unknown. Throws InputError for a known name whose unit
 // is missing or of another dimension.
-Column read_column(std::string_view cell, const std::vector<ColumnKind>& kinds);
+TableColumn read_column(std::string_view cell, const std::vector<ColumnKind>& kinds);
 
 // Of a line, blanks at the ends of cells and quotes around them removed. Views into the line.
 void split_cells(std::string_view line, char separator, std::vector<std::string_view>& cells);
@@ -41,7 +41,7 @@ std::optional<double> cell_number(std::string_view cell);
 // The columns of a header line, in their order; a null kind: not read. What is wrong with it, each
 // told once.
 struct Header {
-  std::vector<Column> columns;
+  std::vector<TableColumn> columns;
   std::vector<std::string> unread;
   // A cell and what is wrong with it; the cell empty where the message names it.
   std::vector<std::pair<std::string, std::string>> problems;
@@ -72,4 +72,4 @@ class Lines {
   bool ended_within_ = false;
 };
 
-}  // namespace papilla::lab
+}  // namespace papilla::config
