@@ -3,7 +3,7 @@
 // finger on 2 skins (several sets of them) and on 24 others: numbers at humidities, means and
 // variations over them, and the differences of the two. CSV: what each set says.
 //   ninja -C build model_part_bench
-//   build/bench/model_part_bench designs 20 2611 > results/accuracy/model_part.csv
+//   build/bench/model_part_bench designs 8 2612 > results/accuracy/model_part.csv
 #include <fmt/format.h>
 
 #include <algorithm>

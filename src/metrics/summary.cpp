@@ -104,8 +104,8 @@ std::optional<StepSamples> step_samples(
 }
 
 double step_error(const StepSamples& samples) {
-  // Of what skins move the members of a belief by: the median of 960 numbers and differences of
-  // drawn designs (quartiles 3.7 and 8.7; bench/model_part_bench.cpp).
+  // Of what skins move the members of a belief by: chosen on drawn designs, held on others
+  // (results/accuracy/model_part.csv).
   constexpr double kFreedom = 5;
   double moved = 0, scatter = 0;
   for (const std::vector<double>& direction : samples) {
