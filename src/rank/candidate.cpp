@@ -99,7 +99,7 @@ void Candidate::look_on() {
 }
 
 void Candidate::extend() {
-  solve([](Scene&) {}, fidelity_, patches_);
+  solve([](Scene&) {}, fidelity_, patches_, known_);
   const int n = skins();
   look_on();
   Response response = respond(scene_, fidelity_, patches_);
@@ -140,7 +140,8 @@ void Candidate::step() {
     Scene scene = scene_;
     move(scene);
     PatchSet patches;
-    solve(move, few, patches);
+    std::vector<RegionLaws> known;
+    solve(move, few, patches, known);
     return Resampled(respond(scene, few, patches));
   };
   Response runs;
@@ -177,9 +178,10 @@ void Candidate::step() {
 }
 
 // The next skins of the common sequence, as many as the fidelity says, in the moved scene.
-void Candidate::solve(const std::function<void(Scene&)>& move, Fidelity fidelity,
-                      PatchSet& patches) const {
+void Candidate::solve(const std::function<void(Scene&)>& move, Fidelity fidelity, PatchSet& patches,
+                      std::vector<RegionLaws>& known) const {
   const int count = static_cast<int>(regions_.size()), skins = fidelity.skins;
+  known.resize(regions_.size());
   for (int r = 0; r < count; ++r) {
     fidelity.first_skin = patches.skins();
     fidelity.skins = skins * (r + 1) / count - skins * r / count;
@@ -188,11 +190,9 @@ void Candidate::solve(const std::function<void(Scene&)>& move, Fidelity fidelity
     Scene scene = scene_of(region);
     scene.finger.state = scene_.finger.state;
     move(scene);
-    // One region is one scene: what its field rule lacks and how its load law goes is measured
-    // once.
-    PatchSet more =
-        solve_patches(scene, region.texture, fidelity, count == 1 ? patches.field : FieldRatios{},
-                      count == 1 ? patches.laws : std::vector<LoadLaws>{});
+    RegionLaws& laws = known[static_cast<std::size_t>(r)];
+    PatchSet more = solve_patches(scene, region.texture, fidelity, laws.field, laws.laws);
+    laws = {more.field, more.laws};
     if (patches.skins() == 0) {
       patches = std::move(more);
     } else {

@@ -29,7 +29,13 @@ class Candidate {
   std::vector<double> member_weights() const;  // of belief; empty: the finger has none
 
  private:
-  void solve(const std::function<void(Scene&)>& move, Fidelity fidelity, PatchSet& patches) const;
+  // What is measured once of each region, since it is the same on all skins.
+  struct RegionLaws {
+    FieldRatios field;           // what its field rule lacks
+    std::vector<LoadLaws> laws;  // how its load law goes
+  };
+  void solve(const std::function<void(Scene&)>& move, Fidelity fidelity, PatchSet& patches,
+             std::vector<RegionLaws>& known) const;
   double value(const Criterion& c, Response& response, const Optics* look) const;
   void look_on();
 
@@ -42,6 +48,7 @@ class Candidate {
   // each of another arrangement; else one. Eq. ranking.7
   std::vector<Optics> looks_;
   PatchSet patches_;
+  std::vector<RegionLaws> known_;
   std::vector<std::vector<double>> pseudo_;  // [criterion][skin]
   std::vector<StepSamples> steps_;           // one per criterion
 };
