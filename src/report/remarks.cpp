@@ -87,8 +87,7 @@ std::string few_remark(const OptimiseResult& r) {
     case SearchEnd::Before:
       return made +
              ": the search of the run that was resumed had ended. More of them are another run, in "
-             "a "
-             "folder of its own.";
+             "a folder of its own.";
     case SearchEnd::Budget:
     case SearchEnd::Clock:  // said by the remark on the clock
       break;

@@ -127,7 +127,7 @@ function showCompared() {
   table($('differences'), ['differs'].concat(designs.map((d) => d.name)), differ.map((k) => [k].concat(values.map((m) => m.get(k) || '–'))));
   const alike = ['finger: load', 'finger: state', 'surface: contact angle', 'surface: modulus', 'environment: relative humidity', 'drive: amplitude', 'texture: patch'].filter((k) => keys.includes(k) && !differ.includes(k));
   $('common').textContent = (alike.length ? `The same in all: ${alike.map((k) => k.split(': ')[1] + ' ' + values[0].get(k)).join(', ')}, and ` : '') + `${keys.length - differ.length - alike.length} more values of texture, surface, finger, environment and drive; the folder designs/ holds them.`;
-  ranking.scans.forEach((scan) => { $('scans').appendChild(document.createElement('li')).textContent = scan + '.'; });
+  (ranking.scans || []).forEach((scan) => { $('scans').appendChild(document.createElement('li')).textContent = scan + '.'; });
 }
 
 function select(index) {
