@@ -138,11 +138,8 @@ Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& a
         "{}: {:.4g} x {:.4g} um is smaller than the patch of {:.4g} um; lower texture.patch",
         source.file, 1e6 * whole.lx, 1e6 * whole.ly, 1e6 * patch));
   }
-  if (source.as_is && same_pixels(grid, whole)) return {grid, scan->map.z};  // to the last bit
-  const auto other = [&](double side) { return std::abs(side / patch - 1) > 1e-9; };
-  if (source.as_is && (other(grid.lx) || other(grid.ly))) return tiled(scan->map, grid);
-  const double x0 = 0.5 * (whole.lx - grid.lx) + at.x, y0 = 0.5 * (whole.ly - grid.ly) + at.y;
-  const double beyond = std::max({-x0, -y0, x0 + grid.lx - whole.lx, y0 + grid.ly - whole.ly});
+  const double beyond = std::max(std::abs(at.x) - 0.5 * (whole.lx - patch),
+                                 std::abs(at.y) - 0.5 * (whole.ly - patch));
   if (beyond > 1e-9 * patch) {
     throw InputError(fmt::format(
         "texture.at_x, texture.at_y: the square of {:.4g} um round ({:.4g}, {:.4g}) um reaches "
@@ -150,6 +147,17 @@ Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& a
         1e6 * patch, 1e6 * at.x, 1e6 * at.y, 1e6 * beyond, 1e6 * whole.lx, 1e6 * whole.ly,
         source.file));
   }
+  if (source.as_is && same_pixels(grid, whole)) return {grid, scan->map.z};  // to the last bit
+  const auto other = [&](double side) { return std::abs(side / patch - 1) > 1e-9; };
+  if (source.as_is && (other(grid.lx) || other(grid.ly))) {
+    if (at != MapPlace{}) {
+      throw InputError(source.file +
+                       ": texture.at_x, texture.at_y: a map that repeats by itself begins at its "
+                       "corner as a part of a stack; leave them out");
+    }
+    return tiled(scan->map, grid);
+  }
+  const double x0 = 0.5 * (whole.lx - grid.lx) + at.x, y0 = 0.5 * (whole.ly - grid.ly) + at.y;
   const double seam = source.as_is ? 0 : kSeam;  // what is known repeats by itself
   return periodic_cut(scan->map, grid, x0, y0, std::clamp(x0, 0.0, seam * grid.lx),
                       std::clamp(y0, 0.0, seam * grid.ly), {});

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/constants.h"
 #include "metrics/metrics.h"
 #include "numerics/statistics.h"
 
@@ -33,12 +32,9 @@ std::vector<double> meant(const BeliefValues& belief) {
   const std::vector<double>& w = belief.weights;
   const double total = std::accumulate(w.begin(), w.end(), 0.0),
                mean = std::inner_product(w.begin(), w.end(), belief.values.begin(), 0.0) / total;
-  double moved = 0;
-  for (const std::vector<double>& of_member : belief.moves)
-    moved += square(mean_estimate(of_member).value);
-  const double share = moved > 0 ? belief.deviation() / std::sqrt(moved) : 1;
+  const double part = meant_part(belief.moves);
   std::vector<double> out = belief.values;
-  for (double& v : out) v = mean + share * (v - mean);
+  for (double& v : out) v = mean + part * (v - mean);
   return out;
 }
 

@@ -42,6 +42,8 @@ std::optional<StepSamples> step_samples(
 // The standard error that they leave: what of the moves is meant and not the scatter of the skins;
 // 0 where nothing moves alone. Eq. accuracy.18
 double step_error(const StepSamples& samples);
+// What part of each move that is, 0 to 1; 1 where nothing moves.
+double meant_part(const StepSamples& samples);
 
 // A number as a member of belief has it: `own` and `there` are of the scene as it is and of the
 // member, both on few skins. A number that keeps its sign is moved in proportion, by no more than

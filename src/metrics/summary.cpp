@@ -103,20 +103,39 @@ std::optional<StepSamples> step_samples(
   return out;
 }
 
-double step_error(const StepSamples& samples) {
+namespace {
+
+// Squares of the moves, and of what the skins scatter them by.
+struct Squares {
+  double moved = 0, scatter = 0;
+};
+Squares squares_of(const StepSamples& samples) {
+  Squares out;
+  for (const std::vector<double>& direction : samples) {
+    const Estimate e = mean_estimate(direction);
+    out.moved += square(e.value);
+    out.scatter += square(e.se);
+  }
+  return out;
+}
+
+double part_of(const Squares& s, const StepSamples& samples) {
   // Of what skins move the members of a belief by: chosen on drawn designs, held on others
   // (results/accuracy/model_part.csv).
   constexpr double kFreedom = 5;
-  double moved = 0, scatter = 0;
-  for (const std::vector<double>& direction : samples) {
-    const Estimate e = mean_estimate(direction);
-    moved += square(e.value);
-    scatter += square(e.se);
-  }
-  if (!(moved > 0) || !(scatter > 0)) return std::sqrt(moved);
+  if (!(s.moved > 0) || !(s.scatter > 0)) return 1;
   const double freedom = std::min(kFreedom, static_cast<double>(samples.size()));
-  return std::sqrt(moved * meant_share(moved / scatter, freedom, samples.front().size()).value);
+  return std::sqrt(meant_share(s.moved / s.scatter, freedom, samples.front().size()).value);
 }
+
+}  // namespace
+
+double step_error(const StepSamples& samples) {
+  const Squares s = squares_of(samples);
+  return std::sqrt(s.moved) * part_of(s, samples);
+}
+
+double meant_part(const StepSamples& samples) { return part_of(squares_of(samples), samples); }
 
 std::optional<SummaryValue> summarise(Summary summary, const Metric& metric,
                                       const Response& response) {

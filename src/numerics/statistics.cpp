@@ -57,24 +57,24 @@ std::vector<double> error_moves(std::span<const double> samples) {
 
 Estimate meant_share(double ratio, double freedom, std::size_t samples) {
   if (!(ratio > 0)) return {};
-  constexpr int kNodes = 400;
-  constexpr double kNegligible = 40;  // e^-40 of the likelihood
+  constexpr int kNodes = 200;
+  constexpr double kNegligible = 16;  // e^-16 of the likelihood
   // u = 1 - k goes with a power of itself below its most likely value, min(1, 1/ratio): in its
   // logarithm all scales are alike.
   const double last = std::log(std::max(1.0, ratio)) + kNegligible / (1 + freedom / 2);
   const double others = static_cast<double>(samples) - 1;
-  const auto likelihood = [&](double u) {  // its logarithm, of ratio u by Fisher's distribution
+  // Its logarithm at u = exp(x), of ratio u by Fisher's distribution.
+  const auto likelihood = [&](double x, double u) {
     return 0.5 * freedom *
-           (std::log(u) - (samples == 0
-                               ? ratio * u
-                               : static_cast<double>(samples) * std::log1p(ratio * u / others)));
+           (x - (samples == 0 ? ratio * u
+                              : static_cast<double>(samples) * std::log1p(ratio * u / others)));
   };
-  const double most = likelihood(std::min(1.0, 1 / ratio));
+  const double likely = std::min(1.0, 1 / ratio), most = likelihood(std::log(likely), likely);
   double sum = 0, first = 0, second = 0;
   for (int i = 0; i <= kNodes; ++i) {  // Simpson's rule
-    const double u = std::exp(-last * i / kNodes);
+    const double x = -last * i / kNodes, u = std::exp(x);
     const double rule = i == 0 || i == kNodes ? 1 : i % 2 == 1 ? 4 : 2;
-    const double weight = rule * u * std::exp(likelihood(u) - most);
+    const double weight = rule * u * std::exp(likelihood(x, u) - most);
     sum += weight;
     first += weight * u;
     second += weight * u * u;

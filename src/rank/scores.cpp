@@ -98,9 +98,7 @@ double Scores::probability_over_members(std::size_t a, std::size_t b) const {
   const std::vector<double> paired = minus(skins[a], skins[b]);
   const Estimate e = mean_estimate(paired);
   const StepSamples moves = step_difference(a, b);
-  double all = 0;
-  for (const std::vector<double>& m : moves) all += square(mean_estimate(m).value);
-  const double sure = all > 0 ? std::min(1.0, step_error(moves) / std::sqrt(all)) : 0;
+  const double sure = meant_part(moves);
   const double freedom = static_cast<double>(paired.size()) - 1;
   double out = 0;
   for (std::size_t m = 0; m < moves.size(); ++m) {

@@ -83,6 +83,16 @@ TEST(MeasuredMap, TheCutIsWhereItIsAskedForAndNotBeyondTheMap) {
               cut_of("beyond", as_it_is, false, {0, 2.5e-6});
             }).find("reaches 0.5 um beyond the map"),
             std::string::npos);
+  // Also where the map is taken pixel by pixel, or as often as a stack is long.
+  const ScanSource repeats{temporary("placed.npy"), kWidth, false, true};
+  const auto refused = [&](double patch, const MapPlace& place, const Grid& grid) {
+    return refusal_of([&] { patch_of_map(repeats, patch, place, grid); });
+  };
+  EXPECT_NE(refused(kHeight, {3e-6, 0}, {400, 320, kWidth, kHeight}).find("beyond the map"),
+            std::string::npos);
+  EXPECT_NE(refused(kPatch, {1e-6, 0}, {96, 96, 2 * kPatch, kPatch}).find("leave them out"),
+            std::string::npos);
+  EXPECT_EQ(refused(kPatch, {}, {96, 96, 2 * kPatch, kPatch}), "");
 }
 
 // 20 x 16 um: patches of 8 um have two places along x, one along y.
