@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "papilla/design.h"
 #include "papilla/error.h"
 
 namespace papilla::api {
@@ -19,9 +20,10 @@ struct NextExperimentOptions {
   std::string belief;   // a file; empty: that of the designs' finger
   std::string worth;    // a metric that designs are compared by; empty: as `papilla next`
   std::string load, humidity, voltage, frequency,
-      states;                                        // lists, "0 V,100 V"; empty: the designs'
-  std::string finger = "1", day, date;               // day, date: empty: today
-  int threads = 0;                                   // 0: all processors
+      states;                           // lists, "0 V,100 V"; empty: the designs'
+  Design::Values values;                // of a new lab.toml: {"instrument.repeatability", "2 %"}
+  std::string finger = "1", day, date;  // day, date: empty: today
+  int threads = 0;                      // 0: all processors
   std::function<void(const std::string&)> progress;  // for people; may be empty
   const std::atomic<bool>* stop =
       nullptr;  // set by another thread: next_experiments() throws Stopped

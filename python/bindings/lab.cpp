@@ -15,8 +15,8 @@ void bind_lab(py::module_& module) {
       [noted](const std::vector<std::string>& sources, const std::string& folder,
               const std::string& purpose, int count, double seconds, const std::string& belief,
               const std::string& worth, const std::vector<std::string>& conditions,
-              const std::string& finger, const std::string& day, const std::string& date,
-              int threads, const py::object& progress) {
+              const Design::Values& values, const std::string& finger, const std::string& day,
+              const std::string& date, int threads, const py::object& progress) {
         const NextExperiments found = run_job(
             [=](Job& job) {
               NextExperimentOptions o;
@@ -31,6 +31,7 @@ void bind_lab(py::module_& module) {
               o.voltage = conditions.at(2);
               o.frequency = conditions.at(3);
               o.states = conditions.at(4);
+              o.values = values;
               o.finger = finger;
               o.day = day;
               o.date = date;
@@ -44,7 +45,8 @@ void bind_lab(py::module_& module) {
       },
       py::arg("sources"), py::arg("folder"), py::arg("purpose"), py::arg("count"),
       py::arg("seconds"), py::arg("belief"), py::arg("worth"), py::arg("conditions"),
-      py::arg("finger"), py::arg("day"), py::arg("date"), py::arg("threads"), py::arg("progress"));
+      py::arg("values"), py::arg("finger"), py::arg("day"), py::arg("date"), py::arg("threads"),
+      py::arg("progress"));
   module.def(
       "tell_lab",
       [noted](const std::string& folder, const std::vector<std::string>& files,

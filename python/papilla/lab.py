@@ -6,7 +6,7 @@ import json
 import os
 import re
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Union
 
@@ -136,12 +136,13 @@ class Lab:
     def open(cls, sources: Source | Sequence[Source], folder: Path, *, belief: Path = "", worth: str = "", load: str = "",
              humidity: str = "", voltage: str = "", frequency: str = "", states: str = "", purpose: str = "",
              count: int = 10, seconds: float = 0, finger: str = "1", date: str = "", threads: int = 0,
-             progress: Progress = None) -> Lab:
+             values: Mapping[str, Any] | None = None, progress: Progress = None) -> Lab:
         """A new lab with its first batch: ``papilla next``.
 
         sources: a folder of results or a Run, a wafer's manifest.csv, designs or their files, a calibration. load, humidity, voltage, frequency,
         states: what can be set, lists as "15 %,75 %"; empty: the designs' own. purpose: "decision", "hypotheses",
-        "parameters". count: touches, at most. seconds: of work, at most. Raises InputError, KeyboardInterrupt.
+        "parameters". count: touches, at most. seconds: of work, at most. values: of lab.toml, before anything is planned:
+        ``{"instrument.repeatability": "2 %", "costs.reading": "2 min"}``. Raises InputError, KeyboardInterrupt.
         """
         conditions = [v.text(t, n) for t, n in ((load, "load"), (humidity, "humidity"), (voltage, "voltage"),
                                                 (frequency, "frequency"), (states, "states"))]
@@ -149,7 +150,7 @@ class Lab:
             found, stop, table, document = _native.next_experiments(
                 _paths(sources, beside), v.path(folder, "folder"), v.text(purpose, "purpose"),
                 v.whole(count, "count", 1, 1000), float(seconds), v.path(belief, "belief"), v.text(worth, "worth"),
-                conditions, v.text(finger, "finger"), "", v.text(date, "date"), v.whole(threads, "threads", 0, 4096),
+                conditions, v.settings(values), v.text(finger, "finger"), "", v.text(date, "date"), v.whole(threads, "threads", 0, 4096),
                 shown(progress, "next"))
         lab = cls(found)
         lab.batch = Batch(stop, table, json.loads(document))
@@ -160,7 +161,7 @@ class Lab:
         """The batch to measure next: ``papilla next LAB``. Raises InputError, KeyboardInterrupt."""
         _, stop, table, document = _native.next_experiments(
             [self.folder], "", v.text(purpose, "purpose"), v.whole(count, "count", 1, 1000), float(seconds), "", "",
-            [""] * 5, v.text(finger, "finger"), v.text(day, "day"), v.text(date, "date"),
+            [""] * 5, [], v.text(finger, "finger"), v.text(day, "day"), v.text(date, "date"),
             v.whole(threads, "threads", 0, 4096), shown(progress, "next"))
         self.batch = Batch(stop, table, json.loads(document))
         return self.batch

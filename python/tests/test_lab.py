@@ -61,7 +61,9 @@ def test_a_lab_takes_designs_and_starts_again_after_a_wrong_word(tmp_path: Path,
     options = {"belief": Path(lab.folder).parent / "belief.toml", "humidity": "35 %", "count": 1}
     with pytest.raises(pp.InputError, match="nothing is decided"):
         pp.Lab.open(design, tmp_path / "own", purpose="decision", **options)
-    opened = pp.Lab.open([design], tmp_path / "own", **options)
+    opened = pp.Lab.open([design], tmp_path / "own", values={"instrument": {"repeatability": 0.02}}, **options)
+    assert "repeatability = \"2 %\"" in (tmp_path / "own" / "lab.toml").read_text()
     assert opened.batch is not None and opened.batch.experiments[0].design == "my_holes"
+    assert opened.page.startswith("# Lab: my_holes\n")
     with pytest.raises(pp.InputError, match="is a lab already"):
         pp.Lab.open(design, tmp_path / "own", **options)

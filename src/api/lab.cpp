@@ -28,8 +28,9 @@ NextExperiments next_experiments(const std::vector<std::string>& sources,
     if (options.count < 1) throw wrong("count", "expected 1 at least");
     const Watch watch({}, options.stop);
     NextRun run;
-    run.source = {sources,          options.belief,  options.worth,     options.load,
-                  options.humidity, options.voltage, options.frequency, options.states};
+    run.source = {sources,           options.belief,   options.worth,
+                  options.load,      options.humidity, options.voltage,
+                  options.frequency, options.states,   overrides(options.values)};
     run.folder = options.folder;
     run.options = {
         aim_named(options.purpose), options.count, options.seconds, options.finger, options.day,

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/folder.h"
 #include "base/text.h"
+#include "design/scans.h"
 
 namespace papilla::cli {
 namespace {
@@ -59,9 +60,19 @@ void make_folder(const std::string& path) {
 }
 
 void add_design_options(Command command, DesignOptions& options) {
-  command.add_option("file", options.file, "Design or study file").required().type_name("FILE");
+  command.add_option("file", options.file, "Design or study file, or with --base a scan")
+      .required()
+      .type_name("FILE");
+  command
+      .add_option("--base", options.base, "DESIGN.toml that the scan is put into, as its texture")
+      .type_name("FILE");
   add_set_option(command, options.overrides);
   command.add_flag("--json", options.json, "One JSON object on standard output");
+}
+
+Study DesignOptions::study() const {
+  return base.empty() ? read_study(file, overrides)
+                      : read_study(base, scan_as_texture(file, overrides));
 }
 
 void add_set_option(Command command, std::vector<std::string>& overrides) {

@@ -7,6 +7,7 @@
 
 #include "base/rooms.h"
 #include "cli/options.h"
+#include "design/study.h"
 
 namespace papilla::cli {
 
@@ -33,9 +34,11 @@ void make_folder(const std::string& path);
 
 // What a command that reads one design takes.
 struct DesignOptions {
-  std::string file;
+  std::string file, base;  // base: a design that `file`, a scan, is the texture of; "": none
   std::vector<std::string> overrides;
   bool json = false;
+
+  Study study() const;  // as it is read; throws InputError
 };
 void add_design_options(Command command, DesignOptions& options);
 

@@ -183,7 +183,7 @@ class LongEvaluation {
 
 int evaluate_file(const Context& context, const EvaluateOptions& options) {
   const Watch watch(LongEvaluation(context), nullptr);
-  const Study study = read_study(options.design.file, options.design.overrides);
+  const Study study = options.design.study();
   const Design& design = study.design;
   if (!options.force) require_fitted_model(design, options.design.file, "run with --force");
   Fidelity fidelity = fidelity_of(design);

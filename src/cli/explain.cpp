@@ -104,7 +104,7 @@ std::string time_text(const Design& design, const Fidelity& fidelity, const Plan
 }
 
 int explain(const Context& context, const DesignOptions& options, bool measure) {
-  const Study study = read_study(options.file, options.overrides);
+  const Study study = options.study();
   const Design& design = study.design;
   say_scans({design});
   const TargetOptions target{.target = design.accuracy.target};

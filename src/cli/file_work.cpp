@@ -34,13 +34,16 @@ FileProgress FileWork::progress() {
 void FileWork::tick(const Context& context, const std::string& doing) {
   const bool terminal = isatty(STDERR_FILENO) != 0;
   bool shown = false;
+  std::string last;
   std::unique_lock lock(mutex_);
   for (int second = 1;; ++second) {
     if (changed_.wait_for(lock, std::chrono::seconds(1), [this] { return ended_; })) break;
-    // On a terminal each second, in a file or a pipe each ten.
+    // On a terminal each second; in a file or a pipe each ten, the same again each minute.
     if (context.quiet || file_.empty() || (!terminal && second % 10 != 0)) continue;
     std::string line = fmt::format("{} {}", doing, visible(file_));
     if (share_ > 0) line += fmt::format(": {:.0f} %", 100 * share_);
+    if (!terminal && line == last && second % 60 != 0) continue;
+    last = line;
     if (terminal) {
       std::cerr << "\r\033[K" << line << std::flush;
     } else {

@@ -80,6 +80,11 @@ void add_next(Command app, Context& context) {
   command.add_option("--voltage", source.voltage, "Peak voltages, \"0 V,100 V\"");
   command.add_option("--frequency", source.frequency, "Of the carrier");
   command.add_option("--state", source.states, "States of the finger, \"clean,natural\"");
+  command
+      .add_option("--set", source.values,
+                  "Value of a new lab.toml, \"instrument.repeatability=2 %\"")
+      .type_name("KEY=VALUE")
+      .repeatable();
   command.add_option("--finger", options->run.options.finger, "Who will be measured")
       .show_default();
   command.add_option("--day", options->run.options.day, "When; else the date");

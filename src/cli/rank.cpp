@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/scan_options.h"
+#include "design/scans.h"
 #include "report/ranking.h"
 
 namespace papilla::cli {
@@ -53,11 +54,7 @@ Design read_region(const std::string& file, const RankCommand& command) {
                      "\" is no design (.toml); scans are put into one: --base COMMON.toml, with "
                      "the coating, the finger and its air");
   }
-  std::vector<std::string> overrides{
-      "texture.type=measured",
-      "texture.file=" + std::filesystem::absolute(file).lexically_normal().string()};
-  overrides.insert(overrides.end(), command.overrides.begin(), command.overrides.end());
-  return read_design(command.base, overrides);
+  return read_design(command.base, scan_as_texture(file, command.overrides));
 }
 
 // File stems, of the first region; with the folder where stems repeat.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "base/error.h"
 #include "geometry/measured_map.h"
@@ -19,6 +20,15 @@ std::string text(const DesignScan& scan) {
         1e6 * c.width, 1e6 * c.height, 1e6 * scan.taken,
         c.as_is ? "" : ", blended along two borders with what lies beyond, so that it repeats");
   }
+  return out;
+}
+
+std::vector<std::string> scan_as_texture(const std::string& scan,
+                                         const std::vector<std::string>& others) {
+  std::vector<std::string> out{
+      "texture.type=measured",
+      "texture.file=" + std::filesystem::absolute(scan).lexically_normal().string()};
+  out.insert(out.end(), others.begin(), others.end());
   return out;
 }
 

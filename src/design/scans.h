@@ -19,6 +19,10 @@ struct DesignScan {
 // What was changed of it, and where a part alone is taken.
 std::string text(const DesignScan& scan);
 
+// Overrides that put a scan into a design as its texture, before others.
+std::vector<std::string> scan_as_texture(const std::string& scan,
+                                         const std::vector<std::string>& others);
+
 // Of its texture and of its skin; reads the files. Throws InputError.
 std::vector<DesignScan> scans_of(const Design& design);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "base/text.h"
@@ -140,7 +141,31 @@ void StudyFile::only(const Node& section, const std::string& path,
 
 namespace {
 
+// What a file is that is no design, by a section that only such files have: who gave it is told
+// what takes it, in place of that each of its keys is unknown. "": nothing that is known.
+std::string other_kind(const Document& document) {
+  constexpr std::array<std::pair<const char*, const char*>, 7> kKinds{{
+      {"member", "a belief: a finger names it, belief = \"FILE\""},
+      {"parameters",
+       "a calibration: `papilla calibrate FILE` takes it, `papilla next FILE` plans "
+       "measurements for it"},
+      {"instrument", "a lab: `papilla next FOLDER` goes on with it"},
+      {"press", "a case of `papilla solve contact`"},
+      {"source", "a case of `papilla solve drive`"},
+      {"roughness", "a case of `papilla solve persson`"},
+      {"macro", "a finger: a design names it, finger = \"FILE\""},
+  }};
+  for (const char* of_designs : {"texture", "environment"}) {
+    if (document.has(of_designs)) return {};
+  }
+  const auto* kind = std::find_if(kKinds.begin(), kKinds.end(),
+                                  [&](const auto& k) { return document.has(k.first); });
+  return kind == kKinds.end() ? "" : kind->second;
+}
+
 Study study_of(Document document, const std::string& path) {
+  if (const std::string kind = other_kind(document); !kind.empty())
+    throw InputError({Problem{path, 0, 0, "", "no design but " + kind}});
   document.set_hints(key_for_word);
   Study study;
   study.file = path;

@@ -175,8 +175,9 @@ const std::vector<MemberNumbers>& Lab::worth() {
     for (const LabDesign& d : designs_) {
       const auto at = std::find(run.designs.begin(), run.designs.end(), d.name);
       if (!d.choice || at == run.designs.end()) continue;
-      worth_.push_back({run.worth[static_cast<std::size_t>(at - run.designs.begin())], 0, {}});
-      kept_.push_back(run.kept[static_cast<std::size_t>(at - run.designs.begin())]);
+      const auto i = static_cast<std::size_t>(at - run.designs.begin());
+      worth_.push_back({run.worth[i], 0, {"of the run", run.by_skin[i]}});
+      kept_.push_back(run.kept[i]);
     }
     return worth_;
   }

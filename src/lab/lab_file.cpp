@@ -38,6 +38,16 @@ void name_problems(Document& document, const LabFile& file) {
   }
 }
 
+LabFile lab_of(Document& document) {
+  document.take("schema_version");
+  LabFile out;
+  read_section(document, "", out);
+  name_problems(document, out);
+  state_problems(document, out);
+  document.finish();
+  return out;
+}
+
 }  // namespace
 
 void fields(FieldVisitor& v, CandidateConditions& s) {
@@ -95,13 +105,7 @@ void fields(FieldVisitor& v, LabFile& s) {
 
 LabFile read_lab_file(const std::string& folder) {
   Document document = load_document(folder + "/lab.toml");
-  document.take("schema_version");
-  LabFile out;
-  read_section(document, "", out);
-  name_problems(document, out);
-  state_problems(document, out);
-  document.finish();
-  return out;
+  return lab_of(document);
 }
 
 std::string lab_file_text(const LabFile& file) {
@@ -109,11 +113,26 @@ std::string lab_file_text(const LabFile& file) {
          to_toml(file);
 }
 
+LabFile with_values(const LabFile& file, const std::vector<std::string>& values) {
+  static const std::vector<std::string> kOfTheBench{"instrument", "costs", "conditions",
+                                                    "limits",     "stop",  "discrepancy"};
+  for (const std::string& value : values) {
+    const std::string key = value.substr(0, value.find_first_of(":=")),
+                      section = key.substr(0, key.find('.'));
+    if (std::find(kOfTheBench.begin(), kOfTheBench.end(), section) == kOfTheBench.end())
+      throw InputError({Problem{"lab.toml", 0, 0, key,
+                                "cannot be set of a new lab: " + join_names(kOfTheBench)}});
+  }
+  Document document = parse_document(lab_file_text(file), "lab.toml", values);
+  return lab_of(document);
+}
+
 std::string run_worth_text(const RunWorth& worth) {
   Json out{{"name", worth.name},
            {"designs", worth.designs},
            {"worth", Json::array()},
-           {"kept", worth.kept}};
+           {"kept", worth.kept},
+           {"by_skin", worth.by_skin}};
   for (const std::vector<double>& row : worth.worth) {
     Json& numbers = out["worth"].emplace_back(Json::array());
     for (const double x : row) numbers.push_back(std::isfinite(x) ? Json(x) : Json(nullptr));
@@ -128,6 +147,7 @@ RunWorth read_run_worth(const std::string& text, const std::string& file) {
     out.name = j.at("name");
     out.designs = j.at("designs").get<std::vector<std::string>>();
     out.kept = j.at("kept").get<std::vector<std::vector<bool>>>();
+    out.by_skin = j.value("by_skin", std::vector<std::vector<double>>(out.designs.size()));
     for (const Json& row : j.at("worth")) {
       std::vector<double>& numbers = out.worth.emplace_back();
       for (const Json& x : row) numbers.push_back(x.is_null() ? std::nan("") : x.get<double>());
@@ -141,7 +161,7 @@ RunWorth read_run_worth(const std::string& text, const std::string& file) {
              return !rows.empty() && row.size() == rows.front().size();
            });
   };
-  if (!right(out.worth) || !right(out.kept) ||
+  if (!right(out.worth) || !right(out.kept) || out.by_skin.size() != out.designs.size() ||
       (!out.worth.empty() && out.worth.front().size() != out.kept.front().size()))
     throw InputError({Problem{file, 0, 0, "", "rows of unlike lengths"}});
   return out;

@@ -55,6 +55,9 @@ void fields(FieldVisitor& v, LabFile& s);
 
 // The lab of a folder. Throws InputError with every mistake and its place.
 LabFile read_lab_file(const std::string& folder);
+// A lab before it has a folder, with other values: "instrument.repeatability=2 %". Throws
+// InputError, also for what a lab is opened with (designs, belief, worth).
+LabFile with_values(const LabFile& file, const std::vector<std::string>& values);
 std::string lab_file_text(const LabFile& file);
 
 // What the run that a lab stands on says of its designs at each member.
@@ -63,6 +66,8 @@ struct RunWorth {
   std::vector<std::string> designs;        // in the order of the file
   std::vector<std::vector<double>> worth;  // [design][member]; NaN: none
   std::vector<std::vector<bool>> kept;     // [design][member]: every limit
+  // [design][skin]: what the run's skins leave open of them, deviations by each. Eq. lab.3
+  std::vector<std::vector<double>> by_skin;
 };
 std::string run_worth_text(const RunWorth& worth);
 RunWorth read_run_worth(const std::string& text, const std::string& file);

@@ -395,6 +395,7 @@ Json decision_json(const ResultFiles& f) {
       kept.push_back(d.worth.keeps(i, m));
     }
     designs[folder(i)]["worth_at_members"] = std::move(worth);
+    designs[folder(i)]["worth_moved_by_skins"] = d.worth.moves_of_skins(i);
     designs[folder(i)]["limits_kept_at_members"] = std::move(kept);
   }
   Json out{{"absent", ""},

@@ -97,6 +97,13 @@ NextReport next_in_lab(const NextRun& run) {
   if (!goes_on && has_begun(out.folder))
     throw InputError(out.folder + ": is a lab already; `papilla next " + out.folder +
                      "` goes on with it, --lab names another folder");
+  LabSource alone;
+  alone.paths = paths;
+  if (goes_on && run.source != alone)
+    throw InputError(out.folder +
+                     ": is a lab, which has its belief, worth, conditions and values: "
+                     "change " +
+                     out.folder + "/lab.toml");
   if (!goes_on) {
     const LabOpening opening = lab_opening(run.source);
     for (const std::string& n : opening.notes) note(n);

@@ -33,7 +33,8 @@ class LabOpener {
     set_conditions();
     set_worth();
     LabFile& file = out_.opening.file;
-    file.source = join_names(source_.paths, " ");
+    file.source = join_names(opened_with_, " ");
+    file = with_values(file, source_.values);
     out_.opening.designs = designs_;
     return std::move(out_);
   }
@@ -42,7 +43,10 @@ class LabOpener {
   LabFile& file() { return out_.opening.file; }
   void note(const std::string& text) { out_.notes.push_back(text); }
 
+  // A design goes by its name here: its file may be one of the moment, and the lab has its own
+  // copy.
   void take(const std::string& path) {
+    opened_with_.push_back(path);
     const bool folder = fs::is_directory(path);
     if (folder && fs::is_regular_file(path + "/run.json")) return take_run(path);
     if (folder && fs::is_regular_file(path + "/manifest.csv"))
@@ -51,7 +55,8 @@ class LabOpener {
     if (folder)
       throw InputError(path + ": neither a run (run.json), nor a wafer (manifest.csv), nor a lab");
     if (is_calibration(path)) return take_calibration(path);
-    add(fs::path(path).stem().string(), read_design(path), true);
+    opened_with_.back() =
+        file().designs[add(fs::path(path).stem().string(), read_design(path), true)].name;
   }
 
   static bool is_calibration(const std::string& path) {
@@ -100,6 +105,7 @@ class LabOpener {
       for (const auto& x : design.at("worth_at_members"))
         row.push_back(x.is_null() ? std::nan("") : x.get<double>());
       worth.kept.push_back(design.at("limits_kept_at_members").get<std::vector<bool>>());
+      worth.by_skin.push_back(design.value("worth_moved_by_skins", std::vector<double>()));
     }
     file().worth = worth.name;
     file().worth_file = "worth.json";
@@ -254,6 +260,7 @@ class LabOpener {
   const LabSource& source_;
   LabOpening out_;
   std::vector<Design> designs_;
+  std::vector<std::string> opened_with_;
   std::string belief_;
   bool calibrated_ = false;
 };

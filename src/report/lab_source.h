@@ -17,6 +17,9 @@ struct LabSource {
   std::string belief;  // a file; "": that of the designs' finger, or of the calibration
   std::string worth;   // a metric; "": that of the run, else worst(modulation) of driven designs
   std::string load, humidity, voltage, frequency, states;  // lists, "0 V,100 V"; "": the designs'
+  std::vector<std::string> values;  // of lab.toml: "instrument.repeatability=2 %"
+
+  bool operator==(const LabSource&) const = default;
 };
 
 // What the lab will hold, and for people what was taken where nothing was said. Throws InputError.

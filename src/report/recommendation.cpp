@@ -153,13 +153,19 @@ std::string worth_building(const ResultFiles& f) {
   const OptimiseResult& r = f.result;
   const FinalDesign& best = best_of(f);
   std::vector<std::string> clauses;
-  if (f.problem.driven())
+  if (f.problem.driven()) {
+    const auto rounded = worth_on_grid(f.problem, r);
     clauses.push_back(fmt::format(
-        "Its worst modulation, (F_on - F_off)/F_off, over fingers and humidity is {}{}.",
+        "Its worst modulation, (F_on - F_off)/F_off, over fingers and humidity is {}{}{}.",
         worst_text("what is recommended", best.confirmed.worst),
+        rounded ? " as searched, like all that follows, and " +
+                      worst_text("what is built", rounded->worst) +
+                      " with its dimensions rounded like this"
+                : "",
         r.flat ? "; of the same surface without texture " +
                      worst_text("the same surface without texture", r.flat->worst)
                : ""));
+  }
   std::vector<std::string> broken;
   for (const LimitValue& v : broken_without_texture(f.problem, r))
     broken.push_back(limit_broken(v));

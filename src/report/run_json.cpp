@@ -250,9 +250,8 @@ Json run_json(const ResultFiles& f) {
   step(r.flat_before ? "flat, finish and drive of the best" : "flat", r.flat);
   const bool textured = facts(recommended.design.texture).relief.present;
   if (textured) step("best, with its texture", recommended.confirmed);
-  if (r.build && r.build->made.confirmed.ok && r.build->made.unit != recommended.unit)
-    step(textured ? "best, on the grid of the fab" : "flat, on the grid of the fab",
-         r.build->made.confirmed);
+  step(textured ? "best, on the grid of the fab" : "flat, on the grid of the fab",
+       worth_on_grid(f.problem, r));
   out["steps"] = std::move(steps);
   out["best_flat"] = Json();
   if (const auto flat = best_flat(f.problem, r)) {

@@ -98,6 +98,10 @@ std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
     out += driven ? " |\n" : "\n";
   };
   difference("difference made by the texture", *r.flat);
+  if (const auto rounded = worth_on_grid(f.problem, r))
+    row(flat_best ? "the flat surface, rounded to the grid of the fab"
+                  : "best design, rounded to the grid of the fab",
+        *rounded);
   if (const auto flat = best_flat(f.problem, r); flat && *flat != r.best) {
     const FinalDesign& other = r.finalists[*flat];
     row(("best flat surface of this run, " + design_name(other.folder)).c_str(), other.confirmed);

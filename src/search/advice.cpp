@@ -77,6 +77,13 @@ FinalDesign recommended_design(const StudyProblem& problem, const OptimiseResult
   return textured ? best_without_texture(problem, r) : best_of(r);
 }
 
+std::optional<Score> worth_on_grid(const StudyProblem& problem, const OptimiseResult& r) {
+  if (!r.build || !r.build->made.confirmed.ok ||
+      r.build->made.unit == recommended_design(problem, r).unit)
+    return std::nullopt;
+  return r.build->made.confirmed;
+}
+
 std::optional<std::size_t> best_flat(const StudyProblem& problem, const OptimiseResult& r) {
   std::optional<std::size_t> out;
   const bool maximise = problem.objectives().front().maximise;

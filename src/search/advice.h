@@ -23,6 +23,10 @@ Advice advice_of(const StudyProblem& problem, const OptimiseResult& result);
 // the study's own without the texture. Of a run with a best design.
 FinalDesign recommended_design(const StudyProblem& problem, const OptimiseResult& result);
 
+// What the recommended design is worth with its numbers on the grid of the fab; nothing where they
+// were on it as searched, or it was not judged again.
+std::optional<Score> worth_on_grid(const StudyProblem& problem, const OptimiseResult& result);
+
 // Where the best design has another finish or drive than the study file: those variables.
 std::vector<std::size_t> changed_finish(const StudyProblem& problem, const OptimiseResult& result);
 

@@ -94,12 +94,13 @@ bool beats(const StudyProblem& problem, const FinalDesign& a, const Score& of_a,
   return !problem.driven() || of_a.worst > of_b.worst;
 }
 
-bool beats_everywhere(const StudyProblem& problem, const FinalDesign& a, const FinalDesign& b) {
-  if (!beats(problem, a, a.confirmed, b, b.confirmed)) return false;
-  for (std::size_t m = 0; m < a.members.size(); ++m) {
-    if (!beats(problem, a, a.members[m], b, b.members[m])) return false;
-  }
-  return true;
+// The same at a member. in: worth by everything that designs are compared in.
+bool beats_there(const std::vector<MemberWorth>& in, std::size_t a, std::size_t b, std::size_t m) {
+  const auto known = [&](std::size_t i) { return !std::isnan(in.front().worth[i][m]); };
+  if (!known(a) || !known(b)) return known(a);
+  if (!in.front().keeps(a, m) && in.front().keeps(b, m)) return false;
+  return std::all_of(in.begin(), in.end(),
+                     [&](const MemberWorth& of) { return of.worth[a][m] > of.worth[b][m]; });
 }
 
 std::vector<MemberGroup> hypotheses_of(const Belief& belief) {
@@ -234,13 +235,32 @@ void add_members(const StudyProblem& problem, const std::vector<TaskAnswer>& ans
 
 std::vector<bool> on_front_of_belief(const StudyProblem& problem,
                                      const std::vector<FinalDesign>& finalists) {
-  std::vector<bool> out;
-  for (const FinalDesign& f : finalists) {
-    const bool counts = !f.members.empty();
-    out.push_back(counts &&
-                  std::none_of(finalists.begin(), finalists.end(), [&](const FinalDesign& other) {
-                    return !other.members.empty() && beats_everywhere(problem, other, f);
-                  }));
+  std::vector<bool> out(finalists.size(), false);
+  std::vector<std::size_t> place;
+  std::vector<FinalDesign> asked;
+  for (std::size_t i = 0; i < finalists.size(); ++i) {
+    if (finalists[i].members.empty()) continue;
+    place.push_back(i);
+    asked.push_back(finalists[i]);
+  }
+  if (asked.empty()) return out;
+  std::vector<PickRule> rules;
+  for (std::size_t k = 0; k < problem.objectives().size(); ++k)
+    rules.push_back({PickRule::Kind::Objective, k});
+  if (problem.driven()) rules.push_back({PickRule::Kind::Worst});
+  std::vector<MemberWorth> worth;
+  for (const PickRule& rule : rules) worth.push_back(member_worth(problem, asked, rule, {}));
+  const auto beaten_by = [&](std::size_t b, std::size_t a) {
+    if (!beats(problem, asked[a], asked[a].confirmed, asked[b], asked[b].confirmed)) return false;
+    for (std::size_t m = 0; m < worth.front().weights.size(); ++m) {
+      if (!beats_there(worth, a, b, m)) return false;
+    }
+    return true;
+  };
+  for (std::size_t b = 0; b < asked.size(); ++b) {
+    bool beaten = false;
+    for (std::size_t a = 0; a < asked.size() && !beaten; ++a) beaten = a != b && beaten_by(b, a);
+    out[place[b]] = !beaten;
   }
   return out;
 }

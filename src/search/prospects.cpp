@@ -186,6 +186,16 @@ bool MemberWorth::keeps(std::size_t design, std::size_t member) const {
                      [member](const std::vector<bool>& of) { return of[member]; });
 }
 
+std::vector<double> MemberWorth::moves_of_skins(std::size_t design) const {
+  std::vector<double> out;
+  for (std::size_t m = 0; design < by_skin.size() && m < by_skin[design].size(); ++m) {
+    const std::vector<double>& moves = by_skin[design][m];
+    out.resize(std::max(out.size(), moves.size()), 0);
+    for (std::size_t s = 0; s < moves.size(); ++s) out[s] += weights[m] / total(weights) * moves[s];
+  }
+  return out;
+}
+
 void combine_levels(const std::vector<SkinnedWorth>& confirmed,
                     const std::vector<SkinnedWorth>& few, bool in_proportion,
                     MemberWorth& designs) {

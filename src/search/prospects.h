@@ -34,6 +34,8 @@ struct MemberWorth {
 
   // No limit is broken there, and the design is worth something.
   bool keeps(std::size_t design, std::size_t member) const;
+  // [skin] What each moves a design by on average over the members.
+  std::vector<double> moves_of_skins(std::size_t design) const;
 };
 
 // A worth and what each of the skins behind it moves it by.

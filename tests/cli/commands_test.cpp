@@ -263,6 +263,11 @@ file = "d350/heightmap.gsf"
   const auto a = nlohmann::json::parse(scans.out), b = nlohmann::json::parse(mixed.out);
   ASSERT_EQ(a["candidates"].size(), 2u) << scans.out;
   EXPECT_EQ(a["candidates"][0]["metrics"], b["candidates"][0]["metrics"]);
+  const Outcome pressed = place.run("evaluate d350/heightmap.gsf --base common.toml --json"),
+                named = place.run("evaluate named.toml --json");
+  ASSERT_EQ(pressed.status, 0) << pressed.err;
+  EXPECT_EQ(nlohmann::json::parse(pressed.out)["points"],
+            nlohmann::json::parse(named.out)["points"]);
   const Outcome alone = place.run("rank d350/heightmap.gsf d600/heightmap.gsf");
   EXPECT_EQ(alone.status, 2);
   EXPECT_NE(alone.err.find("--base COMMON.toml"), std::string::npos) << alone.err;

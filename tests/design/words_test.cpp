@@ -47,6 +47,22 @@ TEST(Words, AreTheHintOfAnUnknownKey) {
             std::string::npos);
 }
 
+// Who gives a file of another kind is told what takes it, not that each of its keys is unknown.
+TEST(Words, AFileThatIsNoDesignSaysWhatTakesIt) {
+  const std::string designs = PAPILLA_SOURCE_DIR "/designs/";
+  const std::vector<std::pair<std::string, std::string>> others{
+      {"fingers/belief.toml", "no design but a belief: a finger names it"},
+      {"fingers/reference.calibration.toml",
+       "no design but a calibration: `papilla calibrate FILE`"},
+      {"fingers/moist.toml", "no design but a finger: a design names it, finger = \"FILE\""},
+      {"physics/rough_contact.toml", "no design but a case of `papilla solve contact`"},
+      {"physics/fingertip_drive.toml", "no design but a case of `papilla solve drive`"},
+      {"physics/wrist_on_glass.toml", "no design but a case of `papilla solve persson`"}};
+  for (const auto& [file, said] : others)
+    EXPECT_NE(refusal_of([&] { read_study(designs + file); }).find(said), std::string::npos)
+        << refusal_of([&] { read_study(designs + file); });
+}
+
 // "0.05" of one or of a hundred: both are shown, none is taken.
 TEST(Words, AShareWithoutAUnitIsAskedBack) {
   EXPECT_NE(

@@ -241,8 +241,49 @@ TEST_F(LabFolder, OpensAnewALabWhoseFirstPlanFailed) {
   run.options.aim = Aim::Decision;  // of one design there is none
   EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("nothing is decided"), std::string::npos);
   EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("nothing is decided"), std::string::npos);
+  run.source.values = {"instrument.repeatability=2 %", "costs.reading:=90"};
+  EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("nothing is decided"), std::string::npos);
+  EXPECT_EQ(read_lab_file(run.folder).instrument.repeatability, 0.02);
+  EXPECT_EQ(read_lab_file(run.folder).costs.reading, 90);
+  run.source.values = {"instrument.repeatability=2 V"};
+  EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("instrument.repeatability"),
+            std::string::npos);
+  run.source.values = {"belief=other.toml"};
+  EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("cannot be set of a new lab"),
+            std::string::npos);
+  run.source.values.clear();
   run.folder = folder_;  // one with a plan stays
   EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("is a lab already"), std::string::npos);
+}
+
+// What a lab was opened with is in its files: said again it would change nothing.
+TEST_F(LabFolder, RefusesConditionsOfALabThatGoesOn) {
+  NextRun run;
+  run.source.paths = {folder_};
+  run.source.humidity = "55 %";
+  EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("lab.toml"), std::string::npos);
+}
+
+// Two designs that differ by .01 at every member: sure where the run knew it, not where each is
+// known to .02 by skins of its own.
+TEST_F(LabFolder, KnowsWhatTheSkinsOfItsRunLeftOpen) {
+  const auto p_best = [&](const std::vector<std::vector<double>>& by_skin) {
+    RunWorth run{"worst(modulation)", {"deep", "shallow"}, {{}, {}}, {}, by_skin};
+    for (const double worth : {0.28, 0.29, 0.30, 0.31, 0.32, 0.33}) {
+      run.worth[0].push_back(worth);
+      run.worth[1].push_back(worth - 0.01);
+    }
+    run.kept.assign(2, std::vector<bool>(6, true));
+    LabFile file = read_lab_file(folder_);
+    file.worth_file = "worth.json";
+    write_text(folder_ + "/worth.json", run_worth_text(run));
+    write_text(folder_ + "/lab.toml", lab_file_text(file));
+    Lab lab(folder_, 1);
+    return lab.standing().prospects[0].p_best;
+  };
+  EXPECT_GT(p_best({{}, {}}), 0.99);
+  EXPECT_GT(p_best({{0.02}, {0.02}}), 0.99);  // the same skins move both alike
+  EXPECT_NEAR(p_best({{0.02, 0}, {0, 0.02}}), 0.5 * std::erfc(-0.01 / 0.04), 0.05);
 }
 
 // What a bench has to set stands in the plan, though the lab knows it as the design's own.

@@ -206,6 +206,18 @@ TEST(BuildSheet, SaysWhatTheTextureGainsAndItsTolerances) {
   EXPECT_TRUE(sheet.starts_with("\n## What to build\n\n**" + as_read(recommendation(run.files())) +
                                 "**\n"));
   EXPECT_TRUE(is_golden(sheet, "report/golden/sheet.md"));
+  Searched rounded;
+  rounded.result.build = BuiltDesign{rounded.result.finalists[0], false};
+  rounded.result.build->made.unit.front() += 1e-3;
+  rounded.result.build->made.confirmed = score(0.49, 0.31, 0.24);
+  EXPECT_NE(as_read(recommendation(rounded.files()))
+                .find("is 0.250 as searched, like all that follows, and 0.240 with its dimensions "
+                      "rounded like this; of the same surface without texture 0.200."),
+            std::string::npos)
+      << as_read(recommendation(rounded.files()));
+  EXPECT_NE(as_read(run_summary(rounded.files()))
+                .find("| best design, rounded to the grid of the fab | 0.490 ± "),
+            std::string::npos);
   Searched costly;
   costly.result.flat = score(0.4, 0.2, 0.2);  // 0.1 more variation with the texture
   EXPECT_NE(as_read(recommendation(costly.files()))

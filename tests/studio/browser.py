@@ -169,8 +169,15 @@ def smoke(browser, folder):
             browser.run("document.getElementById('undo').click()")
         # Keys are found by a word; a comma is a decimal one.
         browser.run("const f = document.getElementById('filter'); f.value = 'resistivity'; f.dispatchEvent(new Event('input'))")
-        found = browser.run("return [...document.querySelectorAll('.key.match label')].map(l => l.textContent)")
+        with_the_word = "return [...document.querySelectorAll('.key.match label')].map(l => l.textContent)"
+        found = browser.run(with_the_word)
         check(found and all("resistivity" in text for text in found), f"keys of a word: {found}")
+        # Rows of another kind are found by it, too.
+        browser.run("document.querySelector('[data-kind=grating]').click()")
+        until(browser, "papilla.session().kind === 'grating' && document.getElementById('k-texture-width')", 10, "grooves")
+        check(browser.run(with_the_word) == found, f"of another kind: {browser.run(with_the_word)} for {found}")
+        browser.run("document.getElementById('undo').click()")
+        until(browser, "papilla.session().kind === 'hole_array' && document.getElementById('k-texture-diameter')", 10, "holes again")
         browser.run("const f = document.getElementById('filter'); f.value = ''; f.dispatchEvent(new Event('input'))")
         browser.run("const i = document.getElementById('k-texture-period'); i.value = '6,5 µm'; i.dispatchEvent(new Event('change'))")
         until(browser, "papilla.session().keys.find(k => k.path === 'texture.period').value === '6.5 um'", 10, "a decimal comma")

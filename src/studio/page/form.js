@@ -208,18 +208,19 @@ export function startSlopes() {
   });
 }
 
-// Rows whose key or meaning has the word.
+// Rows whose key or meaning has the word that is typed.
+function filterRows() {
+  const box = $('keys'), word = $('filter').value.trim().toLowerCase();
+  box.classList.toggle('filtered', Boolean(word));
+  Object.values(rows).forEach((row) => row.box.classList.toggle('match', Boolean(word) && `${row.key.path.replace(/[._]/g, ' ')} ${row.key.doc}`.toLowerCase().includes(word)));
+  const more = box.querySelector('details');
+  if (more && word) more.open = Boolean(more.querySelector('.match'));
+}
+
 export function startFilter() {
-  const box = $('keys'), filter = $('filter');
-  const show = () => {
-    const word = filter.value.trim().toLowerCase();
-    box.classList.toggle('filtered', Boolean(word));
-    Object.values(rows).forEach((row) => row.box.classList.toggle('match', Boolean(word) && `${row.key.path.replace(/[._]/g, ' ')} ${row.key.doc}`.toLowerCase().includes(word)));
-    const more = box.querySelector('details');
-    if (more && word) more.open = Boolean(more.querySelector('.match'));
-  };
-  filter.addEventListener('input', show);
-  filter.addEventListener('keydown', (e) => { if (e.key === 'Escape') { filter.value = ''; show(); } });
+  const filter = $('filter');
+  filter.addEventListener('input', filterRows);
+  filter.addEventListener('keydown', (e) => { if (e.key === 'Escape') { filter.value = ''; filterRows(); } });
 }
 
 // Other rows: another kind of texture, another file.
@@ -241,6 +242,7 @@ function rebuild(keys) {
   more.append(element('summary', '', 'All keys'));
   groups(more, (k) => !first(k));
   box.append(more);
+  filterRows();
 }
 
 export function showKinds(kinds) {
