@@ -141,7 +141,7 @@ World make_world(const std::string& folder, int members, int truths) {
   w.table = std::make_unique<ResponseTable>(w.designs, *w.model);
   w.table->lay(w.experiments);
   const MetricExpression metric = parse_own_metric(w.file.worth);
-  for (const LabDesign& d : w.designs) w.worth.push_back(w.model->worth(d.design, metric));
+  for (const LabDesign& d : w.designs) w.worth.push_back(w.model->worth(d, metric));
   find_truths(w, drawn(finger, truths, "lab truths"), folder);
   return w;
 }
@@ -200,7 +200,7 @@ void judge_moves(const World& w, const Belief& truths, const std::string& folder
   double off = 0, ratio = 0, move = 0, n = 0;
   for (std::size_t i = 0; i < w.experiments.size(); ++i) {
     const Experiment& e = w.experiments[i];
-    const MemberFriction f = model.friction(w.designs[e.design].design, e.at);
+    const MemberFriction f = model.friction(w.designs[e.design], e.at);
     for (std::size_t t = 0; t < truths.members.size(); ++t) {
       const Friction& is = w.truth[i][t];
       off += square(std::log(f.off.at[t] / is.off));

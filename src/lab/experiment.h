@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/rooms.h"
+#include "design/design.h"
 #include "scene/finger.h"
 
 namespace papilla::lab {
@@ -17,6 +18,12 @@ struct Conditions {
 
   bool driven() const { return voltage > 0; }
   bool operator==(const Conditions&) const = default;
+};
+
+struct LabDesign {
+  std::string name;
+  Design design;
+  bool choice = true;  // one of those that are decided among
 };
 
 struct Experiment {

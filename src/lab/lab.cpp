@@ -183,7 +183,7 @@ const std::vector<MemberNumbers>& Lab::worth() {
   }
   const MetricExpression metric = parse_own_metric(file_.worth);
   for (const LabDesign& d : designs_) {
-    if (d.choice) worth_.push_back(model_->worth(d.design, metric));
+    if (d.choice) worth_.push_back(model_->worth(d, metric));
   }
   return worth_;
 }

@@ -194,13 +194,13 @@ std::vector<double> MemberModel::kept(const std::string& question, std::size_t s
   return answer;
 }
 
-MemberFriction MemberModel::friction(const Design& design, const Conditions& at) {
-  const Design there = under_conditions(design, at);
+MemberFriction MemberModel::friction(const LabDesign& design, const Conditions& at) {
+  const Design there = under_conditions(design.design, at);
   const std::size_t members = belief_.members.size(), deviations = deviations_of(there, members),
                     size = 1 + members + deviations;
   const std::vector<double> answer =
       kept("friction with what skins leave open\n" + write_toml(to_table(there)), 2 * size, [&] {
-        if (note_) note_(fmt::format("{}, {}, at {} members", there.title, text(at), members));
+        if (note_) note_(fmt::format("{}, {}, at {} members", design.name, text(at), members));
         const DesignRuns runs = runs_of(there, belief_, threads_);
         std::vector<double> out = listed(numbers_of(runs, moved_off)),
                             on = listed(numbers_of(runs, moved_on));
@@ -211,8 +211,8 @@ MemberFriction MemberModel::friction(const Design& design, const Conditions& at)
           unlisted(answer.data() + size, members, deviations, skins_of(there))};
 }
 
-MemberNumbers MemberModel::worth(const Design& design, const MetricExpression& expression) {
-  Design own = design;
+MemberNumbers MemberModel::worth(const LabDesign& design, const MetricExpression& expression) {
+  Design own = design.design;
   own.finger.belief.clear();
   const std::size_t members = belief_.members.size(), deviations = deviations_of(own, members);
   const std::vector<double> answer = kept(
@@ -220,8 +220,7 @@ MemberNumbers MemberModel::worth(const Design& design, const MetricExpression& e
           write_toml(to_table(own)),
       1 + members + deviations, [&] {
         if (note_)
-          note_(
-              fmt::format("{}: {} at {} members", design.title, metric_text(expression), members));
+          note_(fmt::format("{}: {} at {} members", design.name, metric_text(expression), members));
         const double sign = better_direction(expression) == Better::Lower ? -1 : 1;
         const bool size = keeps_sign(expression.summary, expression.metric);
         const auto number = [&](const Points& points) {

@@ -40,9 +40,9 @@ class MemberModel {
   // An evaluation of each member. One humidity at a time, though several would share work: the
   // contact of a humidity starts from that of the one before, so an answer would depend, within
   // the tolerance of the contact, on what else was asked.
-  MemberFriction friction(const Design& design, const Conditions& at);
+  MemberFriction friction(const LabDesign& design, const Conditions& at);
   // Of the design at its own drive and humidities, higher is better.
-  MemberNumbers worth(const Design& design, const MetricExpression& expression);
+  MemberNumbers worth(const LabDesign& design, const MetricExpression& expression);
 
  private:
   std::vector<double> kept(const std::string& question, std::size_t size,

@@ -19,7 +19,7 @@ const MemberFriction& ResponseTable::friction(const Experiment& e) {
   const std::string key = cell_key(e);
   auto found = known_.find(key);
   if (found == known_.end())
-    found = known_.emplace(key, model_.friction(designs_[e.design].design, e.at)).first;
+    found = known_.emplace(key, model_.friction(designs_[e.design], e.at)).first;
   return found->second;
 }
 

@@ -12,12 +12,6 @@
 
 namespace papilla::lab {
 
-struct LabDesign {
-  std::string name;
-  Design design;
-  bool choice = true;  // one of those that are decided among
-};
-
 // The readings of one experiment: rows of the ensemble.
 struct MeasurableCell {
   std::optional<std::size_t> off, on;  // none: some member has no such state

@@ -199,7 +199,7 @@ TEST_F(LabFolder, MovesWeightToTheHypothesisThatTheReadingsSpeakFor) {
   for (std::size_t d = 0; d < 2; ++d) {
     for (const double rh : {0.35, 0.75}) {
       const MemberFriction f =
-          model.friction(lab.designs()[d].design, {0.2, rh, 200, 0, FingerState::Clean});
+          model.friction(lab.designs()[d], {0.2, rh, 200, 0, FingerState::Clean});
       for (int repeat = 1; repeat <= 3; ++repeat)
         rows += fmt::format("{},{},0.2,{},200,1,{:.6f},{:.6f}\n", lab.designs()[d].name, repeat,
                             100 * rh, f.off.at[member], f.on.at[member]);
@@ -249,7 +249,7 @@ TEST_F(LabFolder, OpensAnewALabWhoseFirstPlanFailed) {
   EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("instrument.repeatability"),
             std::string::npos);
   run.source.values = {"belief=other.toml"};
-  EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("cannot be set of a new lab"),
+  EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("is not what --set is for"),
             std::string::npos);
   run.source.values.clear();
   run.folder = folder_;  // one with a plan stays

@@ -59,8 +59,7 @@ class Story : public testing::Test {
   static std::string record(const PlannedExperiment& e, std::size_t member, std::uint64_t seed) {
     const Lab lab(Story::lab(), 1);
     MemberModel model(lab.belief(), Story::lab(), 1);
-    const MemberFriction f =
-        model.friction(lab.designs()[e.experiment.design].design, e.experiment.at);
+    const MemberFriction f = model.friction(lab.designs()[e.experiment.design], e.experiment.at);
     Tribometer t;
     t.off = f.off.at[member];
     t.on = f.on.at[member];
