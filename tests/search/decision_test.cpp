@@ -129,6 +129,28 @@ TEST(Decision, IsTheLeastExpectedRegretAndNamesWhatOverturnsIt) {
       << said;
 }
 
+// What another beats by the confirmed numbers and at every member is off the front; one member that
+// says otherwise of what it answers itself keeps it there.
+TEST(Decision, AFrontOverBeliefHasWhatAMemberMayPrefer) {
+  const BelievingRun a(0.3, "decision_front");
+  const FinalDesign better = a.best();
+  FinalDesign worse = better;
+  const auto worsen = [](Score& score) {
+    score.values[0] -= 0.1;
+    score.values[1] += 0.1;
+    score.worst *= 0.5;
+  };
+  worsen(worse.confirmed);
+  for (Score& score : worse.members) worsen(score);
+  for (SkinnedScore& few : worse.few) worsen(few.score);
+  const auto on_front = [&] { return on_front_of_belief(a.run.problem, {better, worse}); };
+  EXPECT_EQ(on_front(), (std::vector<bool>{true, false}));
+  worse.few[2].score.worst *= 10;
+  EXPECT_EQ(on_front(), (std::vector<bool>{true, true}));
+  worse.members.clear();  // not asked
+  EXPECT_EQ(on_front(), (std::vector<bool>{true, false}));
+}
+
 TEST(Decision, AHypothesisOfEnoughWeightOverturnsTheNumbersOfTheFit) {
   const BelievingRun a(0.8, "decision_overturned");
   const Decision& d = a.decision();
