@@ -150,8 +150,8 @@ class Lab:
             found, stop, table, document = _native.next_experiments(
                 _paths(sources, beside), v.path(folder, "folder"), v.text(purpose, "purpose"),
                 v.whole(count, "count", 1, 1000), float(seconds), v.path(belief, "belief"), v.text(worth, "worth"),
-                conditions, v.settings(values), v.text(finger, "finger"), "", v.text(date, "date"), v.whole(threads, "threads", 0, 4096),
-                shown(progress, "next"))
+                conditions, v.settings(values), v.text(finger, "finger"), "", v.text(date, "date"),
+                v.whole(threads, "threads", 0, 4096), shown(progress, "next"))
         lab = cls(found)
         lab.batch = Batch(stop, table, json.loads(document))
         return lab

@@ -71,8 +71,11 @@ void add_design_options(Command command, DesignOptions& options) {
 }
 
 Study DesignOptions::study() const {
-  return base.empty() ? read_study(file, overrides)
-                      : read_study(base, scan_as_texture(file, overrides));
+  if (base.empty()) return read_study(file, overrides);
+  if (file.ends_with(".toml"))
+    throw InputError("--base: " + file + " is no scan; a design names its base, base = \"" + base +
+                     "\"");
+  return read_study(base, scan_as_texture(file, overrides));
 }
 
 void add_set_option(Command command, std::vector<std::string>& overrides) {

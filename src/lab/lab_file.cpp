@@ -120,9 +120,9 @@ LabFile with_values(const LabFile& file, const std::vector<std::string>& values)
     const std::string key = value.substr(0, value.find_first_of(":=")),
                       section = key.substr(0, key.find('.'));
     if (std::find(kOfTheBench.begin(), kOfTheBench.end(), section) == kOfTheBench.end())
-      throw InputError({Problem{
-          "lab.toml", 0, 0, key,
-          "is not what --set is for; of a new lab these are set: " + join_names(kOfTheBench)}});
+      throw InputError(
+          {Problem{"lab.toml", 0, 0, key,
+                   "is not set like this; of a new lab these are: " + join_names(kOfTheBench)}});
   }
   Document document = parse_document(lab_file_text(file), "lab.toml", values);
   return lab_of(document);

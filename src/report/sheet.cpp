@@ -138,7 +138,8 @@ std::string grid_text(const ResultFiles& f) {
   if (build.judged > 1)
     out +=
         fmt::format("; the best of {} designs of the grid that were judged", judged_on_grid(build));
-  if (build.made.unit == searched.unit) return out + ".";
+  const auto rounded = worth_on_grid(f.problem, f.result);
+  if (!rounded) return out + ".";
   std::vector<std::string> values;
   for (std::size_t k = 0; k < f.problem.objectives().size(); ++k) {
     const StudyObjective& o = f.problem.objectives()[k];
@@ -147,8 +148,7 @@ std::string grid_text(const ResultFiles& f) {
       return stated(objective_number(f, of, score, k),
                     shown_value(o.expression, score.values[k]) + (unit.empty() ? "" : " " + unit));
     };
-    values.push_back(fmt::format("{} {} where it had {}", o.name,
-                                 said("what is built", build.made.confirmed),
+    values.push_back(fmt::format("{} {} where it had {}", o.name, said("what is built", *rounded),
                                  said("what is recommended, as searched", searched.confirmed)));
   }
   return out + fmt::format("; it was judged again so: {}.", join_names(values));

@@ -34,7 +34,7 @@ struct MemberWorth {
 
   // No limit is broken there, and the design is worth something.
   bool keeps(std::size_t design, std::size_t member) const;
-  // [skin] What each moves a design by on average over the members.
+  // [skin] What each moves a design by on average over the members: the e_ik of Eq. lab.3.
   std::vector<double> moves_of_skins(std::size_t design) const;
 };
 

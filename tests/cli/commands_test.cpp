@@ -268,6 +268,9 @@ file = "d350/heightmap.gsf"
   ASSERT_EQ(pressed.status, 0) << pressed.err;
   EXPECT_EQ(nlohmann::json::parse(pressed.out)["points"],
             nlohmann::json::parse(named.out)["points"]);
+  const Outcome design = place.run("evaluate named.toml --base common.toml");
+  EXPECT_EQ(design.status, 2);
+  EXPECT_NE(design.err.find("named.toml is no scan"), std::string::npos) << design.err;
   const Outcome alone = place.run("rank d350/heightmap.gsf d600/heightmap.gsf");
   EXPECT_EQ(alone.status, 2);
   EXPECT_NE(alone.err.find("--base COMMON.toml"), std::string::npos) << alone.err;

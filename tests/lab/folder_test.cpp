@@ -249,8 +249,7 @@ TEST_F(LabFolder, OpensAnewALabWhoseFirstPlanFailed) {
   EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("instrument.repeatability"),
             std::string::npos);
   run.source.values = {"belief=other.toml"};
-  EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("is not what --set is for"),
-            std::string::npos);
+  EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("is not set like this"), std::string::npos);
   run.source.values.clear();
   run.folder = folder_;  // one with a plan stays
   EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("is a lab already"), std::string::npos);
