@@ -25,21 +25,23 @@ class MpiTeam : public Team {
 
   std::size_t size() const override { return static_cast<std::size_t>(size_ - 1); }
 
-  std::vector<WorkAnswer> answer(const std::vector<Bytes>& requests) override {
+  std::vector<WorkAnswer> answer(const std::vector<Bytes>& requests,
+                                 const std::atomic<bool>* stop) override {
     std::vector<WorkAnswer> out(requests.size());
     std::vector<std::size_t> task(static_cast<std::size_t>(size_), 0);
     std::size_t next = 0;
     const auto give = [&](int rank) {
-      if (next >= requests.size()) return;
+      if (next >= requests.size() || (stop && *stop)) return;
       ranks_.send(requests[next], rank, Ranks::Kind::Request);
       task[static_cast<std::size_t>(rank)] = next++;
     };
     for (int rank = 1; rank < size_; ++rank) give(rank);
-    for (std::size_t done = 0; done < requests.size(); ++done) {
+    for (std::size_t done = 0; done < next; ++done) {
       const Ranks::Message message = ranks_.receive(Ranks::Kind::Answer);
       out[task[static_cast<std::size_t>(message.rank)]] = unpack_answer(message.bytes);
       give(message.rank);
     }
+    out.resize(next);
     return out;
   }
 

@@ -208,17 +208,19 @@ class LocalTeam : public Team {
 
   std::size_t size() const override { return workers_.size(); }
 
-  std::vector<WorkAnswer> answer(const std::vector<Bytes>& requests) override {
+  std::vector<WorkAnswer> answer(const std::vector<Bytes>& requests,
+                                 const std::atomic<bool>* stop) override {
     constexpr std::size_t kFree = static_cast<std::size_t>(-1);
     std::vector<WorkAnswer> out(requests.size());
     std::vector<std::size_t> task(workers_.size(), kFree);
     std::size_t next = 0, done = 0;
-    while (done < requests.size()) {
+    while (true) {
       for (std::size_t w = 0; w < workers_.size() && next < requests.size(); ++w) {
-        if (task[w] != kFree) continue;
+        if (task[w] != kFree || (stop && *stop)) continue;
         workers_[w]->send(requests[next]);
         task[w] = next++;
       }
+      if (done == next) break;
       std::vector<pollfd> waiting;
       double left = kInfinity;
       for (std::size_t w = 0; w < workers_.size(); ++w) {
@@ -236,6 +238,7 @@ class LocalTeam : public Team {
         ++done;
       }
     }
+    out.resize(next);
     return out;
   }
 

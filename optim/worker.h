@@ -2,6 +2,7 @@
 // A team works on lists of requests in several processes.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -78,7 +79,13 @@ class Team {
  public:
   virtual ~Team() = default;
   virtual std::size_t size() const = 0;  // requests at a time
-  virtual std::vector<WorkAnswer> answer(const std::vector<Bytes>& requests) = 0;
+  // stop: once it is set no further request is worked on, and the answers are those of the first
+  // ones alone, which had been begun; null: never.
+  virtual std::vector<WorkAnswer> answer(const std::vector<Bytes>& requests,
+                                         const std::atomic<bool>* stop) = 0;
+  std::vector<WorkAnswer> answer(const std::vector<Bytes>& requests) {
+    return answer(requests, nullptr);
+  }
 };
 
 // Workers on this machine; each takes the next request when it is free.

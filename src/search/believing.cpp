@@ -5,16 +5,13 @@
 namespace papilla::search {
 namespace {
 
-// Nothing where the run was interrupted.
-bool judge_members(Run& run, FinalDesign& f) {
+void judge_members(Run& run, FinalDesign& f) {
   std::vector<TaskRequest> requests;
   for (std::size_t t = 0; t < run.problem.nominal_tasks(); ++t)
     requests.push_back({Stage::Belief, t, false, f.unit, run.confirm_seconds});
-  if (run.stopped_before_next()) return false;
   const std::vector<TaskAnswer> answers = run.replay.answers(requests);
   run.problem.add_steps(f.confirmed, answers);
   add_members(run.problem, answers, f);
-  return true;
 }
 
 }  // namespace
@@ -27,7 +24,7 @@ std::size_t believed(const StudyProblem& problem, const OptimiseResult& result) 
   return out;
 }
 
-bool judge_belief(Run& run) {
+void judge_belief(Run& run) {
   OptimiseResult& result = run.result;
   const std::size_t count = believed(run.problem, result);
   const auto seconds = [&](std::size_t designs) {
@@ -37,7 +34,7 @@ bool judge_belief(Run& run) {
     std::size_t done = 0;
     for (FinalDesign& f : result.finalists) {
       if (!f.feasible) continue;
-      if (!judge_members(run, f)) return false;
+      judge_members(run, f);
       ++done;
       run.progress("belief", static_cast<int>(done), static_cast<int>(count),
                    seconds(count - done) + run.seconds_from(RunPart::Stability));
@@ -47,7 +44,6 @@ bool judge_belief(Run& run) {
     order_finalists(run);
   }
   result.decision = decide(run.problem, result.finalists, run.options.pick);
-  return true;
 }
 
 }  // namespace papilla::search

@@ -21,17 +21,16 @@ std::size_t on_front(const OptimiseResult& result) {
                                                 [](const auto& f) { return !f.folder.empty(); }));
 }
 
-// step: after each design, with the expected seconds of the others; false: interrupted.
-bool check_stability(Run& run, const std::function<void(double)>& step) {
+// step: after each design, with the expected seconds of the others.
+void check_stability(Run& run, const std::function<void(double)>& step) {
   const std::size_t variants = stability_variants(run.problem).size();
   const double seconds = run.seconds_of(on_front(run.result) * variants, Stage::Stability);
-  if (!run.begin(RunPart::Stability, Stage::Stability, false, seconds)) return true;
+  if (!run.begin(RunPart::Stability, Stage::Stability, false, seconds)) return;
   std::vector<Point> designs;
   std::vector<std::vector<TaskAnswer>> answers;
   // The front comes first.
   for (const FinalDesign& f : run.result.finalists) {
     if (f.folder.empty()) break;
-    if (run.stopped()) return false;
     std::vector<TaskRequest> requests;
     for (std::size_t v = 0; v < variants; ++v)
       requests.push_back({Stage::Stability, v, false, f.unit});
@@ -40,7 +39,6 @@ bool check_stability(Run& run, const std::function<void(double)>& step) {
     step(run.seconds_of((on_front(run.result) - answers.size()) * variants, Stage::Stability));
   }
   run.result.stability = judge_stability(run.problem, designs, answers);
-  return true;
 }
 
 // The best of the front by the rule asked for: over belief where there is one.
@@ -119,10 +117,10 @@ void find_parameters(Run& run, Score& score, const Point& unit, bool flat) {
 
 }  // namespace
 
-bool check(Run& run) {
+void check(Run& run) {
   OptimiseResult& result = run.result;
-  if (result.finalists.empty()) return true;
-  if (!judge_belief(run)) return false;
+  if (result.finalists.empty()) return;
+  judge_belief(run);
   int done = 0;
   const int total = kOtherChecks + static_cast<int>(on_front(result));
   // left: of the part that is worked on; next: the parts that follow.
@@ -130,8 +128,7 @@ bool check(Run& run) {
     done += by;
     run.progress("check", done, total, left + run.seconds_from(next));
   };
-  if (!check_stability(run, [&](double left) { step(1, left, RunPart::Flat); }) || run.stopped())
-    return false;
+  check_stability(run, [&](double left) { step(1, left, RunPart::Flat); });
   pick(run);
   FinalDesign& best = result.finalists[result.best];
   if (facts(run.study.design.texture).relief.present || facts(best.design.texture).relief.present)
@@ -152,11 +149,10 @@ bool check(Run& run) {
   if (result.flat) find_parameters(run, *result.flat, best.unit, true);
   // Few runs a design where the fingers name beliefs: all of the front have it.
   for (FinalDesign& f : result.finalists) {
-    if (run.problem.has_belief() && f.on_front && &f != &best && !run.stopped())
+    if (run.problem.has_belief() && f.on_front && &f != &best)
       find_parameters(run, f.confirmed, f.unit, false);
   }
   step(1, 0, RunPart::Files);
-  return true;
 }
 
 }  // namespace papilla::search

@@ -206,12 +206,12 @@ void order_finalists(Run& run) {
   }
 }
 
-bool narrow(Run& run) {
+void narrow(Run& run) {
   const std::size_t count = narrowings(run.search);
   SearchProblem problem = run.search;
   problem.residuals = 0;
   problem.known_drafts = known_drafts(run.history.evaluations);
-  if (count < 2 || problem.known_drafts.empty()) return true;
+  if (count < 2 || problem.known_drafts.empty()) return;
   const auto searcher = make_searcher({"bayesian", ""}, problem);
   std::vector<Point> asked;
   for (std::size_t i : chosen_of(run.search, run.history, count / 2))
@@ -234,7 +234,6 @@ bool narrow(Run& run) {
       asked = searcher->ask();
     }
     if (asked.empty() || !run.search.feasible_before_evaluation(asked.front())) break;
-    if (run.stopped_before_next()) return false;
     const JudgedDesigns judged = run.replay.judged({asked.front()}, Stage::Narrow);
     run.narrowed.add(asked.front(), {judged.evaluations[0].outcome, judged.worst[0]});
     searcher->tell({run.narrowed.evaluations.back()});
@@ -245,7 +244,6 @@ bool narrow(Run& run) {
                      run.seconds_from(RunPart::Confirm));
   }
   if (late) run.cut(RunPart::Narrow, run.narrowed.size(), count);
-  return true;
 }
 
 namespace {
@@ -265,7 +263,7 @@ double confirm_budget(const Run& run) {
 
 }  // namespace
 
-bool confirm(Run& run) {
+void confirm(Run& run) {
   run.clock.enter(RunPart::Confirm);
   const JudgedDesigns& below = run.narrowed.size() < kFewNarrowed ? run.history : run.narrowed;
   std::vector<Point> chosen = to_confirm(run, below);
@@ -275,7 +273,6 @@ bool confirm(Run& run) {
   const bool done_before = run.replay.finished(Stage::Confirm);
   run.progress("confirm", 0, static_cast<int>(chosen.size()), run.seconds_from(RunPart::Confirm));
   for (std::size_t done = 0; done < chosen.size(); ++done) {
-    if (run.stopped()) return false;
     const auto next = run.replay.next();
     const bool recorded = next && next->stage == Stage::Confirm && !next->flat;
     const bool fits = done == 0 || run.fits(run.seconds_of_designs(1, Stage::Confirm));
@@ -290,7 +287,6 @@ bool confirm(Run& run) {
   }
   run.cut(RunPart::Confirm, run.result.finalists.size(), chosen.size());
   judge(run);
-  return true;
 }
 
 }  // namespace papilla::search

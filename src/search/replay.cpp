@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "base/error.h"
+#include "base/watch.h"
 #include "search/differing.h"
 #include "search/records.h"
 
@@ -55,12 +56,13 @@ Journal open_journal(const StudyProblem& problem, const Folder& folder, bool res
 }  // namespace
 
 Replay::Replay(const StudyProblem& problem, const SearchProblem& search, const Folder& folder,
-               bool resume, std::unique_ptr<Team> team)
+               bool resume, std::unique_ptr<Team> team, const std::atomic<bool>* stop)
     : problem_(problem),
       search_(search),
       path_(folder.path(kJournalName)),
       journal_(open_journal(problem, folder, resume)),
-      team_(std::move(team)) {
+      team_(std::move(team)),
+      stop_(stop) {
   for (const JournalRecord& record : journal_.records())
     requests_.push_back(sound(checked_request(problem, search, record)));
 }
@@ -142,10 +144,10 @@ std::vector<TaskAnswer> Replay::ask(const std::vector<TaskRequest>& requests) {
   for (const TaskRequest& r : requests) bytes.push_back(encode(r));
   std::vector<TaskAnswer> out;
   const auto from = std::chrono::steady_clock::now();
-  for (const WorkAnswer& answer : team_->answer(bytes)) out.push_back(task_answer(answer));
+  for (const WorkAnswer& answer : team_->answer(bytes, stop_)) out.push_back(task_answer(answer));
   Spent& spent = spent_[static_cast<std::size_t>(requests.front().stage)];
   spent.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
-  spent.tasks += static_cast<int>(requests.size());
+  spent.tasks += static_cast<int>(out.size());
   return out;
 }
 
@@ -185,12 +187,14 @@ std::vector<Judgement> Replay::searched(const std::vector<Point>& units) {
   std::vector<Point> fresh;
   std::copy_if(remaining.begin(), remaining.end(), std::back_inserter(fresh),
                [&](const Point& u) { return search_.feasible_before_evaluation(u); });
-  const std::vector<Score> scores =
-      scores_of(fresh, false, ask(requests_of(fresh, Stage::Search, false, 0)));
+  const std::vector<TaskAnswer> answers = ask(requests_of(fresh, Stage::Search, false, 0));
+  fresh.resize(answers.size() / problem_.tasks().size());  // those of which all was answered
+  const std::vector<Score> scores = scores_of(fresh, false, answers);
   std::size_t next = 0;
   for (const Point& unit : remaining) {
-    out.push_back(search_.feasible_before_evaluation(unit) ? judgement(scores[next++])
-                                                           : refusal(unit));
+    const bool asked = search_.feasible_before_evaluation(unit);
+    if (asked && next == scores.size()) throw WorkStopped();
+    out.push_back(asked ? judgement(scores[next++]) : refusal(unit));
     record(search_key(unit), encode(out.back()));
   }
   return out;
@@ -207,16 +211,16 @@ JudgedDesigns Replay::searched_before() {
 
 std::vector<TaskAnswer> Replay::answers(const std::vector<TaskRequest>& requests) {
   if (picked_ && replaying() && requests_[next_] != requests.front()) beside_journal_ = true;
-  if (beside_journal_) return ask(requests);
   std::vector<TaskAnswer> out;
-  while (out.size() < requests.size() && replaying())
+  while (!beside_journal_ && out.size() < requests.size() && replaying())
     out.push_back(sound(decode_answer(replayed(requests[out.size()]))));
   const std::vector<TaskRequest> remaining(
       requests.begin() + static_cast<std::ptrdiff_t>(out.size()), requests.end());
   for (TaskAnswer& fresh : ask(remaining)) {
-    record(requests[out.size()], encode(fresh));
+    if (!beside_journal_) record(requests[out.size()], encode(fresh));
     out.push_back(std::move(fresh));
   }
+  if (out.size() < requests.size()) throw WorkStopped();
   return out;
 }
 

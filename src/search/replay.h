@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,9 +23,10 @@ class Replay {
  public:
   // Opens or starts the folder's journal. Throws InputError for one of another study, by the keys
   // in which the studies differ, and for records that cannot be of this one. Refers to both
-  // problems.
+  // problems. stop: once it is set the team begins nothing more, and who asked of it meets
+  // WorkStopped; null: never.
   Replay(const StudyProblem& problem, const SearchProblem& search, const Folder& folder,
-         bool resume, std::unique_ptr<Team> team);
+         bool resume, std::unique_ptr<Team> team, const std::atomic<bool>* stop);
 
   int lost() const { return journal_.lost(); }
   const std::string& kept_copy() const { return journal_.kept_copy(); }
@@ -74,6 +76,7 @@ class Replay {
  private:
   std::vector<TaskRequest> requests_of(const std::vector<Point>& units, Stage stage, bool flat,
                                        double most_seconds) const;
+  // Of the first ones alone where the run is stopped.
   std::vector<TaskAnswer> ask(const std::vector<TaskRequest>& requests);
   std::vector<Score> scores_of(const std::vector<Point>& units, bool flat,
                                const std::vector<TaskAnswer>& answers) const;
@@ -94,6 +97,7 @@ class Replay {
   std::string path_;
   Journal journal_;
   std::unique_ptr<Team> team_;
+  const std::atomic<bool>* stop_;
   std::vector<TaskRequest> requests_;  // of the journal's records
   std::size_t next_ = 0;
   bool picked_ = false, beside_journal_ = false;

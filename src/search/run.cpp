@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/watch.h"
 #include "geometry/io/files.h"
 #include "metrics/shown.h"
 #include "optim/pareto.h"
@@ -105,15 +106,20 @@ struct StageSeconds {
 
 StageSeconds run_stages(Run& run) {
   StageSeconds at;
-  bool on = search_designs(run);
-  at.search = run.clock.seconds();
-  on = on && narrow(run);
-  at.narrow = run.clock.seconds();
-  on = on && confirm(run);
-  at.confirm = run.clock.seconds();
-  on = on && check(run);
-  run.result.interrupted = !on;
-  if (on) run.replay.end();
+  try {
+    search_designs(run);
+    at.search = run.clock.seconds();
+    narrow(run);
+    at.narrow = run.clock.seconds();
+    confirm(run);
+    at.confirm = run.clock.seconds();
+    check(run);
+    run.replay.end();
+  } catch (const WorkStopped&) {
+    run.result.interrupted = true;
+    for (double* end : {&at.search, &at.narrow, &at.confirm})
+      if (*end == 0) *end = run.clock.seconds();
+  }
   return at;
 }
 
@@ -164,7 +170,7 @@ Run::Run(const Study& of, const OptimiseOptions& how, const MpiSession& mpi,
       folder(Folder::made(checked_folder(how, problem, method))),
       lock(folder, ".lock", "another run is working"),
       replay(problem, search, folder, how.resume,
-             team ? std::move(team) : make_team(problem, how, mpi)) {}
+             team ? std::move(team) : make_team(problem, how, mpi), how.stop) {}
 
 void Run::progress(const char* stage, int done, int total, double left) const {
   if (clock.limited() && left >= 0)

@@ -16,7 +16,7 @@ class Searching {
         budget_(static_cast<std::size_t>(run.search.evaluations)),
         begun_(run.clock.seconds()) {}
 
-  bool run() {
+  void run() {
     SearchEnd& end = run_.result.end;
     end = SearchEnd::Budget;
     while (evaluated_ < budget_ && run_.replay.searching()) {
@@ -29,24 +29,20 @@ class Searching {
         end = SearchEnd::Exhausted;
         break;
       }
-      const End told = searcher_->asks_drafts() ? draft(asked) : evaluate(asked);
-      if (told == End::Over) {
+      if (searcher_->asks_drafts()) {
+        draft(asked);
+      } else if (!evaluate(asked)) {
         end = run_.options.finish ? SearchEnd::Asked : SearchEnd::Clock;
         break;
       }
-      if (told == End::Interrupted) return false;
     }
-    return true;
   }
 
  private:
-  enum class End { Told, Interrupted, Over };
-
   // Cheap outcomes that steer. Few at a time, so that a kill loses little and Ctrl-C is heard.
-  End draft(const std::vector<Point>& units) {
+  void draft(const std::vector<Point>& units) {
     std::vector<Evaluation> batch;
     while (batch.size() < units.size()) {
-      if (run_.stopped_before_next()) return End::Interrupted;
       // Some of each round, however short the time.
       if (!batch.empty() && !next_is_draft()) break;
       const auto begin = units.begin() + static_cast<std::ptrdiff_t>(batch.size());
@@ -61,15 +57,14 @@ class Searching {
           run_.seconds_of_designs(static_cast<std::size_t>(left), Stage::Draft) + seconds_left());
     }
     searcher_->tell(batch);
-    return End::Told;
   }
 
-  End evaluate(const std::vector<Point>& asked) {
+  // False where the time is over.
+  bool evaluate(const std::vector<Point>& asked) {
     std::vector<Evaluation> batch;
     while (batch.size() < asked.size() && evaluated_ < budget_ && run_.replay.searching()) {
-      if (run_.stopped_before_next()) return End::Interrupted;
       const std::vector<Point> units = next_of(asked, batch.size());
-      if (units.empty()) return End::Over;
+      if (units.empty()) return false;
       const std::vector<Judgement> judgements = run_.replay.searched(units);
       for (std::size_t i = 0; i < units.size(); ++i) {
         evaluated_ += run_.add_to_history(units[i], judgements[i]);
@@ -79,7 +74,7 @@ class Searching {
                     seconds_left());
     }
     searcher_->tell(batch);
-    return End::Told;
+    return true;
   }
 
   // A draft of the journal, or one that the clock allows: half of the search's time is for others.
@@ -156,18 +151,17 @@ void take_from_journal(Run& run) {
 
 }  // namespace
 
-bool search_designs(Run& run) {
+void search_designs(Run& run) {
   run.clock.enter(RunPart::Search);
   if (run.replay.finished(Stage::Search)) {
     take_from_journal(run);
-  } else if (!Searching(run).run()) {
-    return false;
+  } else {
+    Searching(run).run();
   }
   if (run.result.end == SearchEnd::Clock)
     run.cut(RunPart::Search, static_cast<std::size_t>(run.result.evaluations),
             static_cast<std::size_t>(run.search.evaluations));
   run.result.one_value = one_value_variables(run.problem, run.history.evaluations);
-  return true;
 }
 
 }  // namespace papilla::search

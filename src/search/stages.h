@@ -19,9 +19,6 @@ struct Run {
   Run(const Study& study, const OptimiseOptions& options, const MpiSession& mpi,
       std::unique_ptr<Team> team = nullptr);
 
-  bool stopped() const { return options.stop && options.stop->load(); }
-  // Before a new evaluation: what the journal answers costs nothing.
-  bool stopped_before_next() const { return !replay.replaying() && stopped(); }
   // left: expected seconds to the end; < 0: not known.
   void progress(const char* stage, int done, int total, double left) const;
   // Expected of so many tasks at a stage: by what those took that were done, else by what one of
@@ -63,29 +60,29 @@ struct Run {
       0;  // when the folder was last told of the progress [s since the run began]
 };
 
-// Each returns false where the run was interrupted.
+// Each throws WorkStopped where the run was interrupted before something that no journal answers.
 
 // Cheap evaluations that a searcher asks for, as many as the budget and the time allow.
-bool search_designs(Run& run);
+void search_designs(Run& run);
 
 // The search's level is noisy and biased, and not everywhere alike. On other skins and a finer grid
 // its best designs are judged again, then others where the front has most to gain, with the
 // search's evaluations as drafts (Eq. search.7-8): the finalists come from these.
-bool narrow(Run& run);
+void narrow(Run& run);
 
 // The finalists at the study's accuracy: these numbers decide the front.
-bool confirm(Run& run);
+void confirm(Run& run);
 
 // Designs whose members of belief are evaluated: the finalists that keep every limit; before there
 // are any, as many as there may be.
 std::size_t believed(const StudyProblem& problem, const OptimiseResult& result);
 // The finalists at every member of belief: which are on the front, and which to build.
-bool judge_belief(Run& run);
+void judge_belief(Run& run);
 // The front first, each of its designs with its folder, by the first objective.
 void order_finalists(Run& run);
 
 // What is said of the front and the best beside their numbers: whether the order holds under other
 // models, what is the texture's, what the variables and the fit of the finger do.
-bool check(Run& run);
+void check(Run& run);
 
 }  // namespace papilla::search

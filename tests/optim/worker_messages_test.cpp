@@ -5,8 +5,13 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
+#include <thread>
 
 #include "optim/worker.h"
 #include "tests/temporary.h"
@@ -138,6 +143,39 @@ TEST(Team, OfAnySizeAnswersInTheOrderOfTheRequests) {
   const WorkerLimits usual;
   EXPECT_EQ(usual.seconds, 600);
   EXPECT_EQ(usual.bytes, 8.0 * 1024 * 1024 * 1024);
+}
+
+// Two of five have been begun when it is stopped: both are answered, none of the others is begun.
+TEST(Team, ThatIsStoppedAnswersWhatItHasBegun) {
+  const TemporaryFolder folder;
+  const auto is_there = [&](const std::string& name) {
+    return std::filesystem::exists(folder.path() / name);
+  };
+  const auto wait_for = [&](const std::string& name) {
+    while (!is_there(name)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  };
+  const auto team = make_local_team(2,
+                                    [&](const Bytes& request) -> Bytes {
+                                      std::ofstream(folder.path() / request);
+                                      wait_for("go");
+                                      return request + "!";
+                                    },
+                                    {.seconds = 30});
+  std::atomic<bool> stop{false};
+  std::thread stopping([&] {
+    wait_for("0");
+    wait_for("1");
+    stop = true;
+    std::ofstream(folder.path() / "go");
+  });
+  const std::vector<WorkAnswer> answers = team->answer({"0", "1", "2", "3", "4"}, &stop);
+  stopping.join();
+  ASSERT_EQ(answers.size(), 2u);
+  EXPECT_EQ(answers[0].bytes, "0!");
+  EXPECT_EQ(answers[1].bytes, "1!");
+  EXPECT_FALSE(is_there("2"));
+  EXPECT_TRUE(team->answer({"2"}, &stop).empty());
+  EXPECT_EQ(team->answer({"2"}).front().bytes, "2!");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // says meanwhile. No contact is solved.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
@@ -20,9 +21,11 @@ class FormulaWorker : public Team {
   FormulaWorker(TaskFormula formula, std::vector<TaskRequest>& asked)
       : formula_(std::move(formula)), asked_(asked) {}
   std::size_t size() const override { return 1; }
-  std::vector<WorkAnswer> answer(const std::vector<Bytes>& requests) override {
+  std::vector<WorkAnswer> answer(const std::vector<Bytes>& requests,
+                                 const std::atomic<bool>* stop) override {
     std::vector<WorkAnswer> out;
     for (const Bytes& bytes : requests) {
+      if (stop && *stop) break;
       asked_.push_back(*decode_request(bytes));
       out.push_back({encode(formula_(asked_.back())), {}});
     }

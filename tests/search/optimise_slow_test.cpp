@@ -214,6 +214,7 @@ TEST(OptimiseOfOneRun, AnotherPickNeedsNoNewSearch) {
                     summary = read_bytes(folder + "/summary.md");
   options.pick = "99";
   EXPECT_THROW(optimise_to_folder(run.study, options), InputError);
+  fs::resize_file(folder + "/journal", fs::file_size(folder + "/journal") / 2);
   std::atomic<bool> stop{true};
   EXPECT_TRUE(optimise_to_folder(run.study, {folder, true, {}, &stop, "variation"}).interrupted);
   EXPECT_EQ(read_bytes(folder + "/best/design.toml"), best);

@@ -125,7 +125,7 @@ TEST_F(Records, AreAskedOfBeforeARunGoesOn) {
       Journal journal(folder, kJournalName, journal_key(problem_), false);
       journal.append(record);
     }
-    return Replay(problem_, search_, folder, true, nullptr).evaluated();
+    return Replay(problem_, search_, folder, true, nullptr, nullptr).evaluated();
   };
   EXPECT_EQ(replay(judged([](TaskRequest&, Outcome&) {})), 1);
   for (const std::size_t count : {0u, 9u, 100000u}) {
