@@ -249,17 +249,18 @@ export function showKinds(kinds) {
   const box = $('kinds');
   box.textContent = '';
   kinds.forEach(({ kind, heights }) => {
-    const button = element('button'), canvas = element('canvas');
+    const button = element('button'), canvas = element('canvas'), image = element('img');
     canvas.width = heights.nx;
     canvas.height = heights.ny;
-    canvas.setAttribute('aria-hidden', 'true');
-    const values = decode(heights), image = new ImageData(heights.nx, heights.ny), span = heights.high - heights.low;
-    for (let i = 0; i < values.length; ++i) image.data.set([...colour(span > 0 ? (values[i] - heights.low) / span : 0.6), 255], 4 * i);
-    canvas.getContext('2d').putImageData(image, 0, 0);
+    const values = decode(heights), pixels = new ImageData(heights.nx, heights.ny), span = heights.high - heights.low;
+    for (let i = 0; i < values.length; ++i) pixels.data.set([...colour(span > 0 ? (values[i] - heights.low) / span : 0.6), 255], 4 * i);
+    canvas.getContext('2d').putImageData(pixels, 0, 0);
+    image.src = canvas.toDataURL();  // a canvas would be a layer of its own, drawn again with each frame of the page
+    image.alt = '';
     button.type = 'button';
     button.setAttribute('role', 'radio');
     button.dataset.kind = kind;
-    button.append(canvas, kind.replace(/_/g, ' '));
+    button.append(image, kind.replace(/_/g, ' '));
     button.addEventListener('click', () => ask('kind', { kind }));
     box.append(button);
   });
