@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import os
+import re
 import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -22,6 +23,13 @@ if TYPE_CHECKING:
     from papilla.trades import Exported
 
 __all__ = ["Design", "Heights", "Look", "Number", "compare"]
+
+_OF_THE_DESIGN = ("texture", "surface", "finger", "counterface", "drive")
+"""Sections by which a design is another one: not how it is answered."""
+_MOST_TOLD = 3
+"""Values that a title names each."""
+_LONGEST_TITLE = 1000
+"""As the library takes it."""
 
 
 @dataclass(frozen=True)
@@ -159,9 +167,29 @@ class Design:
         """The design with other values: ``d.with_({"texture.depth": "262 nm"})``, ``d.with_(**{...})``.
 
         All values are read together, so that those which go together (a diameter and its period) are given in one
-        call. Raises InputError.
+        call. The title says what was changed, unless it is given. Raises InputError.
         """
-        return self._of(self._inside.with_(v.settings({**(values or {}), **by_name})))
+        changes = v.settings({**(values or {}), **by_name})
+        title = self._title_with(changes)
+        return self._of(self._inside.with_(changes + v.settings({"title": title} if title else None)))
+
+    def _title_with(self, changes: list[tuple[str, str]]) -> str:
+        """The title of a design that differs so; empty: as it was, or given."""
+        if not self.title or any(key.rstrip(":") == "title" for key, _ in changes):
+            return ""
+        units = {n.path: n.unit for n in self.numbers}
+        told: dict[str, str] = {}
+        for key, text in changes:
+            path = key.rstrip(":")
+            if path.split(".", 1)[0] in _OF_THE_DESIGN:
+                bare = key.endswith(":") and path in units and not text.startswith('"')
+                told[path] = _native.quantity_text(float(text), units[path]) if bare else text.strip('"')
+        if len(told) > _MOST_TOLD:
+            told = {section: "changed" for section in dict.fromkeys(path.split(".", 1)[0] for path in told)}
+        title = self.title
+        for path, text in told.items():
+            title = re.sub(rf"; {re.escape(path)} [^;]*", "", title) + f"; {path} {text}"
+        return title if told and len(title) <= _LONGEST_TITLE else ""
 
     def __getitem__(self, path: str) -> float:
         """A number by its key, SI: ``d["texture.depth"]``. Raises InputError for a key that is none."""

@@ -136,19 +136,20 @@ class Lab:
     def open(cls, sources: Source | Sequence[Source], folder: Path, *, belief: Path = "", worth: str = "", load: str = "",
              humidity: str = "", voltage: str = "", frequency: str = "", states: str = "", purpose: str = "",
              count: int = 10, seconds: float = 0, finger: str = "1", date: str = "", threads: int = 0,
-             values: Mapping[str, Any] | None = None, progress: Progress = None) -> Lab:
+             names: Sequence[str] = (), values: Mapping[str, Any] | None = None, progress: Progress = None) -> Lab:
         """A new lab with its first batch: ``papilla next``.
 
         sources: a folder of results or a Run, a wafer's manifest.csv, designs or their files, a calibration. load, humidity, voltage, frequency,
         states: what can be set, lists as "15 %,75 %"; empty: the designs' own. purpose: "decision", "hypotheses",
-        "parameters". count: touches, at most. seconds: of work, at most. values: of lab.toml, before anything is planned:
+        "parameters". count: touches, at most. seconds: of work, at most. names: of the sources that are a Design, in their order; without
+        them their titles name them. values: of lab.toml, before anything is planned:
         ``{"instrument.repeatability": "2 %", "costs.reading": "2 min"}``. Raises InputError, KeyboardInterrupt.
         """
         conditions = [v.text(t, n) for t, n in ((load, "load"), (humidity, "humidity"), (voltage, "voltage"),
                                                 (frequency, "frequency"), (states, "states"))]
         with tempfile.TemporaryDirectory() as beside:
             found, stop, table, document = _native.next_experiments(
-                _paths(sources, beside), v.path(folder, "folder"), v.text(purpose, "purpose"),
+                _paths(sources, names, beside), v.path(folder, "folder"), v.text(purpose, "purpose"),
                 v.whole(count, "count", 1, 1000), float(seconds), v.path(belief, "belief"), v.text(worth, "worth"),
                 conditions, v.settings(values), v.text(finger, "finger"), "", v.text(date, "date"),
                 v.whole(threads, "threads", 0, 4096), shown(progress, "next"))
@@ -201,9 +202,13 @@ class Lab:
         return self.page
 
 
-def _paths(sources: Source | Sequence[Source], beside: str) -> list[str]:
+def _paths(sources: Source | Sequence[Source], names: Sequence[str], beside: str) -> list[str]:
     """Files and folders; a Design is written into the folder ``beside``, from where a lab takes its own copy."""
     several = [sources] if isinstance(sources, (str, os.PathLike, Design, Run)) else v.items(sources, "sources")
+    named = [_file_name(v.text(n, "names")) for n in v.items(names, "names")]
+    designs = sum(isinstance(source, Design) for source in several)
+    if named and (len(named) != designs or len(set(named)) != designs or not all(named)):
+        raise wrong("names", f"expected a name of its own for each of {designs} designs, got {list(names)}")
     out: list[str] = []
     for i, source in enumerate(several):
         if isinstance(source, Run):
@@ -211,7 +216,7 @@ def _paths(sources: Source | Sequence[Source], beside: str) -> list[str]:
         elif isinstance(source, Design):
             if source._inside.drawn() is not None:
                 raise wrong(f"sources.{i}", "the heights of this design are an array: save it and name its file")
-            name = re.sub(r"[^\w-]+", "_", source.title).strip("_")[:60] or f"design_{i + 1}"
+            name = named.pop(0) if named else _file_name(source.title) or f"design_{i + 1}"
             place = os.path.join(beside, str(i))
             os.mkdir(place)
             out.append(os.path.join(place, name + ".toml"))
@@ -219,3 +224,9 @@ def _paths(sources: Source | Sequence[Source], beside: str) -> list[str]:
         else:
             out.append(v.path(source, f"sources.{i}"))
     return out
+
+
+def _file_name(title: str) -> str:
+    """Its letters and digits: of a long one both ends, for what was changed stands at the end."""
+    word = re.sub(r"[^\w-]+", "_", title).strip("_")
+    return word if len(word) <= 60 else f"{word[:28]}__{word[-30:]}".strip("_")

@@ -237,3 +237,16 @@ def test_a_wave_has_its_roughness_and_its_line_in_the_spectrum() -> None:
     assert pp.spectrum(z, "32 um", tip="100 um").by_tip
     with pytest.raises(pp.InputError, match="heights: .*no surface is so steep"):
         pp.roughness(z * 1e9, "32 um")
+
+
+def test_a_title_says_what_was_changed_of_its_design() -> None:
+    d = pp.Design.load("m3_samples/a3h600.toml")
+    shallow = d.with_({"texture.depth": "300 nm"})
+    assert shallow.title == d.title + "; texture.depth 300 nm"
+    again = shallow.with_({"texture.depth": 2.5e-7, "drive.amplitude": "100 V", "accuracy.level": "draft"})
+    assert again.title == d.title + "; texture.depth 250 nm; drive.amplitude 100 V"
+    assert d.with_({"finger": {"load": "0.3 N", "state": "wet", "macro": {"load_share": 0.01, "shear_strength": "7 MPa"}}}).title == d.title + "; finger changed"
+    assert d.with_({"texture.depth": "300 nm", "title": "mine"}).title == "mine"
+    assert d.with_().title == d.with_({"accuracy.grid": 64}).title == d.title
+    assert pp.Design({"texture.type": "flat"}).with_({"drive.amplitude": "100 V"}).title == ""
+    assert pp.Design.parse(shallow.to_toml()).title == shallow.title

@@ -67,3 +67,9 @@ def test_a_lab_takes_designs_and_starts_again_after_a_wrong_word(tmp_path: Path,
     assert opened.page.startswith("# Lab: my_holes\n")
     with pytest.raises(pp.InputError, match="is a lab already"):
         pp.Lab.open(design, tmp_path / "own", **options)
+    variants = [design, design.with_({"texture.depth": "300 nm"})]
+    for names in (["deep"], ["same", "same"], ["deep", "?"]):
+        with pytest.raises(pp.InputError, match="a name of its own for each of 2 designs"):
+            pp.Lab.open(variants, tmp_path / "named", names=names, **options)
+    named = pp.Lab.open(variants, tmp_path / "named", names=["deep", "shallow one"], **options)
+    assert "| shallow_one |" in named.page and "| deep |" in named.page
