@@ -130,7 +130,7 @@ struct OptimiseOptions {
   std::string folder;
   bool resume = false;
   std::function<void(const Progress&)> progress;  // may be empty
-  const std::atomic<bool>* stop = nullptr;  // set by Ctrl-C: ends after what runs
+  const std::atomic<bool>* stop = nullptr;        // set by Ctrl-C: ends after what runs
   std::string pick{};  // which design of the front is the best: a rule of pick_design
   const ResultWriter* writer =
       nullptr;          // none: the folder has the journal, the plan and no results
