@@ -170,26 +170,26 @@ class Design:
         call. The title says what was changed, unless it is given. Raises InputError.
         """
         changes = v.settings({**(values or {}), **by_name})
-        title = self._title_with(changes)
-        return self._of(self._inside.with_(changes + v.settings({"title": title} if title else None)))
-
-    def _title_with(self, changes: list[tuple[str, str]]) -> str:
-        """The title of a design that differs so; empty: as it was, or given."""
+        changed = self._of(self._inside.with_(changes))
         if not self.title or any(key.rstrip(":") == "title" for key, _ in changes):
-            return ""
-        units = {n.path: n.unit for n in self.numbers}
+            return changed
+        title = self._title_of(changed, changes)
+        return changed if title == self.title else self._of(changed._inside.with_(v.settings({"title": title})))
+
+    def _title_of(self, changed: Design, changes: list[tuple[str, str]]) -> str:
+        """This title with what was changed behind it; as it is where that makes no other design of it."""
+        numbers = {n.path: _native.quantity_text(n.value, n.unit) for n in changed.numbers}
         told: dict[str, str] = {}
         for key, text in changes:
             path = key.rstrip(":")
             if path.split(".", 1)[0] in _OF_THE_DESIGN:
-                bare = key.endswith(":") and path in units and not text.startswith('"')
-                told[path] = _native.quantity_text(float(text), units[path]) if bare else text.strip('"')
+                told[path] = numbers.get(path, text.strip('"'))
         if len(told) > _MOST_TOLD:
             told = {section: "changed" for section in dict.fromkeys(path.split(".", 1)[0] for path in told)}
         title = self.title
         for path, text in told.items():
             title = re.sub(rf"; {re.escape(path)} [^;]*", "", title) + f"; {path} {text}"
-        return title if told and len(title) <= _LONGEST_TITLE else ""
+        return title if len(title) <= _LONGEST_TITLE else self.title
 
     def __getitem__(self, path: str) -> float:
         """A number by its key, SI: ``d["texture.depth"]``. Raises InputError for a key that is none."""

@@ -248,5 +248,8 @@ def test_a_title_says_what_was_changed_of_its_design() -> None:
     assert d.with_({"finger": {"load": "0.3 N", "state": "wet", "macro": {"load_share": 0.01, "shear_strength": "7 MPa"}}}).title == d.title + "; finger changed"
     assert d.with_({"texture.depth": "300 nm", "title": "mine"}).title == "mine"
     assert d.with_().title == d.with_({"accuracy.grid": 64}).title == d.title
+    for wrong in (True, [1e-7, 2e-7], "deep"):
+        with pytest.raises(pp.InputError, match="texture.depth"):
+            d.with_({"texture.depth": wrong})
     assert pp.Design({"texture.type": "flat"}).with_({"drive.amplitude": "100 V"}).title == ""
     assert pp.Design.parse(shallow.to_toml()).title == shallow.title

@@ -147,7 +147,7 @@ AnsweredAgain answer_again(const StudyProblem& problem, const Folder& folder,
     const double then = spent + (priced > 0 ? price * spent / priced : 0);
     if ((how.stop && *how.stop) || (how.seconds > 0 && then > how.seconds)) break;
     priced += price;
-    for (const WorkAnswer& answer : team->answer(some)) {
+    for (const WorkAnswer& answer : team->answer(some, how.stop)) {
       const std::size_t i = order[done++];
       const Stage stage = requests[i].stage;
       const int number = ++out.answered[static_cast<std::size_t>(stage)];
