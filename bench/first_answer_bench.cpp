@@ -3,14 +3,14 @@
 // and is carried by each other of its group. CSV: what the first answer said, its standard error,
 // what it was made of, the refined value.
 //   ninja -C build first_answer_bench
-//   build/bench/first_answer_bench designs 30 2612 > results/studio/bands.csv
+//   build/bench/first_answer_bench designs 30 2613 > results/studio/bands.csv
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,20 +35,15 @@ constexpr std::array<Number, 3> kNumbers{
     {{"friction_off", kFriction}, {"friction_on", kFrictionOn}, {"modulation", kModulation}}};
 
 struct Drawn {
-  Design design;
+  Anchor anchor;
   std::string moved;  // what was, since the one before
-  Response quick, refined;
 };
 
-Drawn answered(Design design, std::string moved) {
-  Drawn out{std::move(design), std::move(moved), {}, {}};
-  const Scene scene = scene_of(out.design);
-  const Fidelity quick = quick_fidelity(out.design);
-  out.quick = respond(scene, quick, solve_patches(scene, out.design.texture, quick));
-  Fidelity design_level = fidelity_level("design");
-  design_level.seed = quick.seed;
-  out.refined = evaluate(scene, out.design.texture, design_level);
-  return out;
+Drawn answered(const Design& design, std::string moved) {
+  Fidelity fidelity = fidelity_level("design");
+  fidelity.seed = quick_fidelity(design).seed;
+  return {anchor_of(design, evaluate(scene_of(design), design.texture, fidelity)),
+          std::move(moved)};
 }
 
 struct Count {
@@ -60,24 +55,28 @@ class Table {
  public:
   // from: whose anchor carries it; null: it stands alone.
   void add(std::size_t group, const Drawn& d, const Drawn* from) {
-    const std::optional<Anchor> anchor =
-        from ? std::optional(Anchor{from->design, from->quick, from->refined}) : std::nullopt;
-    if (anchor && !carries(*anchor, d.design)) return;
-    const Response first = first_answer(d.quick, d.design, anchor);
+    const Design& design = d.anchor.design;
+    const Response& refined = d.anchor.refined;
+    const Anchor* const anchor = from ? &from->anchor : nullptr;
+    if (anchor && !carries(*anchor, design)) return;
+    const Response quick = quick_answer(design, anchor);
+    seconds_[anchor != nullptr].push_back(quick.seconds);
+    const Response first = first_answer(quick, design, anchor);
     for (std::size_t i = 0; i < first.points.size(); ++i) {
-      if (d.refined.points[i].status.pull_in()) continue;
+      if (refined.points[i].status.pull_in()) continue;
       for (const Number& n : kNumbers) {
         const auto at = [&](const Response& r) { return r.points[i].*n.metric.quantity; };
         const Measured answer = at(first);
-        const double fine = at(d.refined).value;
+        const double fine = at(refined).value;
         if (fine == 0 || answer.value == 0) continue;
         const double z = (answer.value - fine) / answer.se();
-        const QuickMove moved = from ? quick_move(i, n.metric, from->quick, d.quick) : QuickMove{};
+        const QuickMove moved =
+            anchor ? quick_move(i, n.metric, anchor->quick, quick) : QuickMove{};
         rows_ += fmt::format(
             "{},{},{},{},{},{:.0f},{},{:.5g},{:.5g},{:.5g},{:.5g},{:.4g},{:.4g},{}\n", group,
-            texture_name(d.design.texture), quick_fidelity(d.design).grid, from ? d.moved : "",
+            texture_name(design.texture), quick_fidelity(design).grid, from ? d.moved : "",
             from ? "carried" : "alone", 100 * first.points[i].relative_humidity, n.name,
-            answer.value, answer.se(), fine, at(d.quick).value, moved.logarithm, moved.error,
+            answer.value, answer.se(), fine, at(quick).value, moved.logarithm, moved.error,
             std::abs(z) <= 2 ? "yes" : "no");
         for (const std::string& of :
              {std::string(n.name),
@@ -96,11 +95,18 @@ class Table {
         "group,texture,pixels,moved,first answer,humidity [%],number,first,standard error,refined,"
         "quick,quick moved,its error,inside\n{}",
         rows_);
+    for (const bool carried : {false, true}) {
+      std::vector<double> seconds = seconds_[carried];
+      std::sort(seconds.begin(), seconds.end());
+      fmt::print(stderr, "{}: {:.4f} s a quick answer in the median\n",
+                 carried ? "carried" : "alone", seconds[seconds.size() / 2]);
+    }
   }
 
  private:
   std::string rows_;
   std::map<std::string, Count> counts_;
+  std::array<std::vector<double>, 2> seconds_;  // alone, carried
 };
 
 }  // namespace
@@ -115,10 +121,10 @@ int main(int argc, char** argv) {
     RandomStream random(std::strtoul(argv[3], nullptr, 10), "first_answer_bench", group);
     std::vector<Drawn> of_group{answered(drawn_design(random, argv[1], group), "")};
     while (of_group.size() < kOfGroup) {
-      Design next = of_group.back().design;
+      Design next = of_group.back().anchor.design;
       std::string moved = moved_by_hand(random, next);
       if (random.below(2) == 1) moved = fmt::format("{} {}", moved, moved_by_hand(random, next));
-      of_group.push_back(answered(std::move(next), moved));
+      of_group.push_back(answered(next, moved));
     }
     for (const Drawn& d : of_group) {
       table.add(group, d, nullptr);

@@ -28,7 +28,8 @@ class KeptPatches {
   enum class Held { Nothing, Contact, Water };
 
   // As solve_patches with the load estimator.
-  PatchSet solve(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
+  PatchSet solve(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
+                 const std::vector<LoadLaws>& laws = {});
   Held held() const { return held_; }  // by the run that began last
 
   // Of a run: before it, on skin k, after it. One that was stopped leaves nothing.

@@ -182,8 +182,9 @@ PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelit
   return solve(scene, texture, fidelity, field, laws, nullptr);
 }
 
-PatchSet KeptPatches::solve(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
-  return forward::solve(scene, texture, fidelity, {}, {}, this);
+PatchSet KeptPatches::solve(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
+                            const std::vector<LoadLaws>& laws) {
+  return forward::solve(scene, texture, fidelity, {}, laws, this);
 }
 
 Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& set) {

@@ -24,8 +24,8 @@ constexpr std::chrono::milliseconds kStill{350};  // without a wish, before refi
 constexpr std::size_t kMostKnown = 24;            // designs whose answers are kept
 constexpr int kRefiningNiceness = 2;
 
+// Of Draft and Design.
 Fidelity fidelity_of_step(const Design& design, Step step) {
-  if (step == Step::First) return quick_fidelity(design);
   Fidelity out = fidelity_level(name_of(step));
   out.seed = static_cast<std::uint64_t>(design.accuracy.seed);
   if (step == Step::Design && design.accuracy.grid > 0) out.grid = design.accuracy.grid;
@@ -109,7 +109,7 @@ Evaluator::Known& Evaluator::known(const Design& design) {
     std::rotate(at, at + 1, known_.end());
   } else {
     if (known_.size() >= kMostKnown) known_.erase(known_.begin());
-    known_.push_back({design, {}, {}});
+    known_.push_back({design, {}, {}, {}});
   }
   return known_.back();
 }
@@ -140,24 +140,44 @@ void Evaluator::answer_first() {
 
 void Evaluator::answer(const Wish& wish) {
   std::unique_lock lock(mutex_);
-  const std::map<Step, Response> before = known(wish.design).by_step;
-  const std::optional<Anchor> anchor = anchor_;
+  const std::map<Step, Response> refined = known(wish.design).refined;
   lock.unlock();
-  const bool refined = !before.empty() && before.rbegin()->first != Step::First;
-  if (refined)  // an undo, a pin: the finest that is known
-    tell(wish, before.rbegin()->first, before.rbegin()->second);
-  else
-    tell(wish, Step::First, first_answer(quick_of(wish.design, before), wish.design, anchor));
+  if (!refined.empty())  // an undo, a pin: the finest that is known
+    return tell(wish, refined.rbegin()->first, refined.rbegin()->second);
+  tell(wish, Step::First, first_answer_of(wish.design, &kept_));
 }
 
-Response Evaluator::quick_of(const Design& design, const std::map<Step, Response>& before) {
-  if (const auto quick = before.find(Step::First); quick != before.end()) return quick->second;
-  const Scene scene = scene_of(design);
-  const Fidelity fidelity = quick_fidelity(design);
-  Response quick = respond(scene, fidelity, kept_.solve(scene, design.texture, fidelity));
-  const std::lock_guard lock(mutex_);
-  known(design).by_step[Step::First] = quick;
-  return quick;
+Response Evaluator::first_answer_of(const Design& design, KeptPatches* kept) {
+  std::unique_lock lock(mutex_);
+  const std::shared_ptr<const Anchor> held = anchor_, anchor = carrying(design);
+  std::optional<Response> quick = known(design).quick;
+  lock.unlock();
+  if (!quick) {
+    quick = quick_answer(design, anchor.get(), kept);
+    lock.lock();
+    if (anchor_ == held) known(design).quick = quick;
+    lock.unlock();
+  }
+  return first_answer(*quick, design, anchor.get());
+}
+
+std::shared_ptr<const Anchor> Evaluator::carrying(const Design& design) const {
+  return anchor_ && carries(*anchor_, design) ? anchor_ : nullptr;
+}
+
+void Evaluator::hold_on(const Design& design, const Response& refined) {
+  std::unique_lock lock(mutex_);
+  const std::shared_ptr<const Anchor> before = anchor_;
+  lock.unlock();
+  const bool same = before && before->design == design;
+  Anchor anchor = same ? *before : anchor_of(design, refined);
+  anchor.refined = refined;
+  lock.lock();
+  if (!same) {  // their quick answers are by other load laws
+    for (Known& k : known_) k.quick.reset();
+    known(design).quick = anchor.quick;
+  }
+  anchor_ = std::make_shared<const Anchor>(std::move(anchor));
 }
 
 void Evaluator::refine_while_idle() {
@@ -242,19 +262,14 @@ void Evaluator::find_slopes(const Wish& wish) {
 // Whether anything had to be done.
 bool Evaluator::refine_to(const Wish& wish, const Design& design, Step step,
                           const std::string& what) {
-  std::map<Step, Response> before;
-  {
-    const std::lock_guard lock(mutex_);
-    before = known(design).by_step;
-  }
+  std::unique_lock lock(mutex_);
+  const std::map<Step, Response> before = known(design).refined;
+  const bool compared = design != wish.design && carrying(design);
+  lock.unlock();
+  if (compared) first_answer_of(design, nullptr);  // beside what moves next
   if (before.count(step)) return false;
   const Scene scene = scene_of(design);
   listener_.refining(wish.revision, what, 0);
-  if (!before.count(Step::First)) {
-    before[Step::First] = evaluate(scene, design.texture, fidelity_of_step(design, Step::First));
-    const std::lock_guard lock(mutex_);
-    known(design).by_step[Step::First] = before[Step::First];
-  }
   const Fidelity fidelity = fidelity_of_step(design, step);
   Response response = evaluate(scene, design.texture, fidelity);
   // Members are run once a design, after its first answer; they do not depend on the step.
@@ -264,30 +279,25 @@ bool Evaluator::refine_to(const Wish& wish, const Design& design, Step step,
   } else {
     add_belief(response, scene, design.texture, fidelity);
   }
-  {
-    const std::lock_guard lock(mutex_);
-    known(design).by_step[step] = response;
-    if (design == wish.design) anchor_ = Anchor{design, before[Step::First], response};
-  }
-  if (design == wish.design) {
-    tell(wish, step, std::move(response));
-  } else {
-    std::unique_lock lock(mutex_);
-    const std::map<Step, Response> own = known(wish.design).by_step;
-    lock.unlock();
-    if (const auto at = own.find(step); at != own.end()) tell(wish, step, at->second);
-  }
+  if (design == wish.design) hold_on(design, response);
+  lock.lock();
+  known(design).refined[step] = response;
+  const std::map<Step, Response> own = known(wish.design).refined;
+  lock.unlock();
+  if (const auto at = own.find(step); at != own.end()) tell(wish, step, at->second);
   return true;
 }
 
 // First answers are compared as they are shown, and only where one anchor carries both.
 std::optional<Response> Evaluator::response_at(const Design& design, Step step) {
-  const std::map<Step, Response>& steps = known(design).by_step;
-  const auto at = steps.find(step);
-  if (at == steps.end()) return std::nullopt;
-  if (step != Step::First) return at->second;
-  if (!anchor_ || !carries(*anchor_, design)) return std::nullopt;
-  return first_answer(at->second, design, anchor_);
+  const Known& of = known(design);
+  if (step != Step::First) {
+    const auto at = of.refined.find(step);
+    return at == of.refined.end() ? std::nullopt : std::optional(at->second);
+  }
+  const std::shared_ptr<const Anchor> anchor = carrying(design);
+  if (!anchor || !of.quick) return std::nullopt;
+  return first_answer(*of.quick, design, anchor.get());
 }
 
 std::vector<Comparison> Evaluator::comparisons(const Wish& wish, Step step) {
@@ -295,8 +305,9 @@ std::vector<Comparison> Evaluator::comparisons(const Wish& wish, Step step) {
                                                   {Summary::Worst, kModulation},
                                                   {Summary::Variation, kModulation},
                                                   {Summary::Mean, kFriction}}};
+  if (wish.pinned.empty()) return {};
   const std::lock_guard lock(mutex_);
-  const auto quick = [&](const Design& d) -> Response { return known(d).by_step.at(Step::First); };
+  const auto quick = [&](const Design& d) -> Response { return *known(d).quick; };
   std::vector<Comparison> out;
   const std::optional<Response> ours = response_at(wish.design, step);
   for (const auto& [number, design] : wish.pinned) {
@@ -327,8 +338,11 @@ void Evaluator::tell(const Wish& wish, Step step, Response shown) {
       asked_at_.erase(asked_at_.begin(), at);
     }
     for (const auto& [number, design] : wish.pinned) {
-      const std::map<Step, Response>& steps = known(design).by_step;
-      if (!steps.empty()) answer.pinned[number] = steps.rbegin()->second;
+      const std::map<Step, Response>& refined = known(design).refined;
+      if (!refined.empty())
+        answer.pinned[number] = refined.rbegin()->second;
+      else if (const std::optional<Response> first = response_at(design, Step::First))
+        answer.pinned[number] = *first;
     }
   }
   listener_.answer(answer);

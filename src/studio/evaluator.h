@@ -87,21 +87,25 @@ class Evaluator {
  private:
   struct Known {  // of one design
     Design design;
-    std::map<Step, Response> by_step;  // First: as it was computed, carried by no anchor
+    std::optional<Response> quick;     // by the anchor at hand where that carries the design
+    std::map<Step, Response> refined;  // Draft, Design
     std::vector<Slope> slopes;
   };
 
   void answer_first();
   void answer(const Wish& wish);
-  Response quick_of(const Design& design, const std::map<Step, Response>& before);
+  Response first_answer_of(const Design& design, KeptPatches* kept);
   void refine_while_idle();
   void refine(const Wish& wish);
   bool refine_to(const Wish& wish, const Design& design, Step step, const std::string& what);
   void find_slopes(const Wish& wish);
   void tell(const Wish& wish, Step step, Response shown);
-  Known& known(const Design& design);  // with the lock held
+  void hold_on(const Design& design, const Response& refined);  // as the anchor
   std::vector<Comparison> comparisons(const Wish& wish, Step step);
-  std::optional<Response> response_at(const Design& design, Step step);  // with the lock held
+  // With the lock held.
+  Known& known(const Design& design);
+  std::shared_ptr<const Anchor> carrying(const Design& design) const;  // null: none does
+  std::optional<Response> response_at(const Design& design, Step step);
   bool outdated(const Wish& wish) const;
 
   Listener listener_;
@@ -109,7 +113,7 @@ class Evaluator {
   std::condition_variable changed_;
   std::optional<Wish> wanted_, answered_;  // the newest; the newest that has its first answer
   std::vector<Known> known_;               // designs used last, at the end
-  std::optional<Anchor> anchor_;
+  std::shared_ptr<const Anchor> anchor_;
   std::optional<Texture> shaped_;                   // the texture whose shape was told last
   std::map<std::uint64_t, std::int64_t> asked_at_;  // by revision [ns]
   std::uint64_t wishes_ = 0, refined_ = 0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "forward/forward.h"
 #include "geometry/texture.h"
 #include "metrics/metrics.h"
 #include "numerics/statistics.h"
@@ -85,6 +86,30 @@ Fidelity quick_fidelity(const Design& design) {
   return out;
 }
 
+Anchor anchor_of(const Design& design, Response refined) {
+  const Fidelity fidelity = quick_fidelity(design);
+  Anchor out{design,
+             solve_patches(scene_of(design), design.texture, fidelity).laws,
+             {},
+             std::move(refined)};
+  const auto sound = [](const AttractionLaw& law) { return law.status.sound(); };
+  const bool hold = std::all_of(out.laws.begin(), out.laws.end(), [&](const LoadLaws& laws) {
+    return std::all_of(laws.begin(), laws.end(), sound);
+  });
+  if (!hold) out.laws.clear();
+  out.quick = quick_answer(design, &out);
+  return out;
+}
+
+Response quick_answer(const Design& design, const Anchor* anchor, KeptPatches* kept) {
+  const Scene scene = scene_of(design);
+  const Fidelity fidelity = quick_fidelity(design);
+  const std::vector<LoadLaws> laws = anchor ? anchor->laws : std::vector<LoadLaws>();
+  return respond(scene, fidelity,
+                 kept ? kept->solve(scene, design.texture, fidelity, laws)
+                      : solve_patches(scene, design.texture, fidelity, {}, laws));
+}
+
 bool carries(const Anchor& anchor, const Design& design) {
   if (anchor.refined.driven != design.drive.driven() ||
       quick_fidelity(design) != quick_fidelity(anchor.design))
@@ -111,16 +136,14 @@ QuickMove quick_move(std::size_t point, const QuantityMetric& number, const Resp
   return out;
 }
 
-Response first_answer(const Response& quick, const Design& design,
-                      const std::optional<Anchor>& anchor) {
+Response first_answer(const Response& quick, const Design& design, const Anchor* anchor) {
   Response out = quick;
   const QuickLevel& level = quick_level(design);
-  const bool carried = anchor && carries(*anchor, design);
   for (std::size_t i = 0; i < out.points.size(); ++i) {
     ResponsePoint& point = out.points[i];
     for (std::size_t k = 0; k < kCarried.size(); ++k) {
       Measured& m = point.*kCarried[k].quantity;
-      if (carried && carry(*anchor, quick, i, kCarried[k], m)) continue;
+      if (anchor && carry(*anchor, quick, i, kCarried[k], m)) continue;
       state_alone(out.plan, point.field_error.has_value(), level.usual[k], kSpread[k], m);
     }
   }

@@ -181,6 +181,46 @@ TEST(Evaluator, RefinesWhatIsAtHandAndThenWhatIsPinned) {
   }
 }
 
+// By the ratio and the load laws of the design that was refined last; a pinned design beside it by
+// the same.
+TEST(Evaluator, CarriesAnAnswerByTheDesignThatWasRefinedLast) {
+  Told told;
+  const Design at = quick_design();
+  Design pinned = at, away = at;
+  set_number(pinned, "texture.depth", 500e-9);
+  set_number(away, "texture.depth", 550e-9);
+  const auto last_is = [&](std::uint64_t revision, Step step) {
+    return !told.answers.empty() && told.answers.back().revision == revision &&
+           told.answers.back().step == step;
+  };
+  Answer refined, first;
+  {
+    Evaluator evaluator(told.listener());
+    evaluator.wish({1, at, {{4, pinned}}, 0});
+    told.wait([&] { return !told.refined.empty() && told.refined.back() == "done"; });
+    refined = told.answers.back();
+    evaluator.wish({2, away, {{4, pinned}}, 0});
+    told.wait([&] { return last_is(2, Step::First); });
+    first = told.answers.back();
+  }
+  ASSERT_TRUE(told.failures.empty());
+  const Anchor anchor = anchor_of(at, refined.response);
+  const Response quick = quick_answer(away, &anchor), theirs = quick_answer(pinned, &anchor),
+                 expected = first_answer(quick, away, &anchor);
+  EXPECT_EQ(first.response.points, expected.points);
+  EXPECT_NE(expected.points[0].modulation, quick.points[0].modulation);
+  EXPECT_EQ(first.pinned.at(4).points, refined.pinned.at(4).points);  // the finest that is known
+  ASSERT_EQ(first.comparisons.size(), 4u);
+  const Comparison& mean = first.comparisons[0];
+  EXPECT_NEAR(
+      mean.difference,
+      summarise(Summary::Mean, kModulation, expected)->value -
+          summarise(Summary::Mean, kModulation, first_answer(theirs, pinned, &anchor))->value,
+      1e-12);
+  EXPECT_GE(*mean.error, difference_drift(theirs, quick) *
+                             std::abs(expected.points[0].modulation.value) * (1 - 1e-12));
+}
+
 // The first answer is that of the quick level, carried by nothing yet; the shape is told where it
 // is another.
 TEST(Evaluator, AnswersEachWishAtOnce) {
@@ -189,7 +229,7 @@ TEST(Evaluator, AnswersEachWishAtOnce) {
   set_number(other, "drive.amplitude", 50);
   set_number(deeper, "texture.depth", 300e-9);
   const Response expected = first_answer(
-      evaluate(scene_of(design), design.texture, quick_fidelity(design)), design, std::nullopt);
+      evaluate(scene_of(design), design.texture, quick_fidelity(design)), design, nullptr);
   Told told;
   {
     Evaluator evaluator(told.listener());

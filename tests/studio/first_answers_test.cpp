@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "config/describe.h"
+#include "forward/forward.h"
 #include "studio/first_answer.h"
 
 namespace papilla::tests::first_answers_test {
@@ -52,7 +52,7 @@ TEST(FirstAnswers, WithoutAnAnchorAreUsualShares) {
       Response quick = response_of({0.2, 0.5, -1.5});
       quick.plan.steps = {{Piece::Contact, "m", "r", 1, 0.9}, {Piece::Field, "m", "r", 1, 0.3}};
       if (known) quick.points[0].field_error = 0.1;
-      const Response out = first_answer(quick, narrow ? fine : coarse, std::nullopt);
+      const Response out = first_answer(quick, narrow ? fine : coarse, nullptr);
       for (std::size_t k = 0; k < 3; ++k) {
         const Measured &m = out.points[0].*kNumbers[k], &before = quick.points[0].*kNumbers[k];
         const double usual = narrow ? kFine[k] : kCoarse[k], value = usual * before.value;
@@ -76,10 +76,10 @@ double drift(double logarithm, double of_skins = 0) {
 // Eq. studio.1 and studio.2: each number by its own ratio, its errors by its own share.
 TEST(FirstAnswers, ByAnAnchorAreItsRatios) {
   const Design at = read_design(kHoles);
-  Anchor anchor{at, response_of({0.4, 0.8, 0.5}), response_of({0.2, 0.72, -0.4})};
+  Anchor anchor{at, {}, response_of({0.4, 0.8, 0.5}), response_of({0.2, 0.72, -0.4})};
   Design away = at;
   set_number(away, "texture.depth", 1200e-9);
-  const Response out = first_answer(response_of({0.1, 0.2, -0.3}), away, anchor);
+  const Response out = first_answer(response_of({0.1, 0.2, -0.3}), away, &anchor);
   const std::array<double, 3> ratio{0.5, 0.9, -0.8}, quick{0.1, 0.2, -0.3};
   // What changes its sign has moved as far as by e.
   const std::array<double, 3> moved{std::log(4.0), std::log(4.0), 1};
@@ -99,13 +99,13 @@ TEST(FirstAnswers, ByAnAnchorAreItsRatios) {
         << k;
   }
   // Nothing moved: the floor.
-  const Response same = first_answer(anchor.quick, at, anchor);
+  const Response same = first_answer(anchor.quick, at, &anchor);
   EXPECT_NEAR(*same.points[0].friction_off.parts.method, std::hypot(0.05, 0.01 * 0.2), 1e-12);
   // What one of the two levels does not have, no ratio carries.
   for (const bool coarse : {true, false}) {
     Anchor none = anchor;
     ((coarse ? none.quick : none.refined).points[0].friction_on).value = 0;
-    const Response other = first_answer(response_of({0.1, 0.2, 0.3}), away, none);
+    const Response other = first_answer(response_of({0.1, 0.2, 0.3}), away, &none);
     EXPECT_NEAR(other.points[0].friction_off.value, 0.05, 1e-12);
     EXPECT_NEAR(other.points[0].friction_on.value, 0.64 * 0.2, 1e-12);
   }
@@ -133,8 +133,8 @@ TEST(FirstAnswers, KnowWhatSkinsLeaveOpenOfAMove) {
   // Two skins at 1.1 and 0.9 times the number have a standard error of 0.1; twice that apart.
   EXPECT_NEAR(unlike.error, 0.2, 1e-12);
   const Design at = read_design(kHoles);
-  const Anchor anchor{at, from, response_of({1, 1, 1})};
-  const Measured m = first_answer(apart, at, anchor).points[0].modulation;
+  const Anchor anchor{at, {}, from, response_of({1, 1, 1})};
+  const Measured m = first_answer(apart, at, &anchor).points[0].modulation;
   EXPECT_NEAR(*m.parts.method, std::hypot(0.05 * 2, 2 * drift(std::log(2.0), 0.2)), 1e-12);
 }
 
@@ -147,6 +147,47 @@ TEST(FirstAnswers, ADifferenceDriftsWithItsFarthestMove) {
   EXPECT_NEAR(difference_drift(from, to), drift(std::log(1.2)), 1e-12);
   to.driven = false;
   EXPECT_NEAR(difference_drift(from, to), drift(std::log(2.0)), 1e-12);
+}
+
+// What the drive and the water do to the gap as they close it is measured once, at the anchor.
+TEST(FirstAnswers, TakeTheLoadLawsOfTheirAnchor) {
+  Design at = read_design(kHoles);
+  at.environment.relative_humidity = {0.35, 0.75};
+  const Anchor anchor = anchor_of(at, response_of({1, 1, 1}));
+  Design away = at;
+  set_number(away, "texture.depth", 500e-9);
+  const Fidelity fidelity = quick_fidelity(away);
+  ASSERT_EQ(anchor.laws.size(), 2u);
+  ASSERT_FALSE(anchor.laws[0].empty());
+  EXPECT_NE(anchor.laws[0][0].pull, 0);
+  const Response own = quick_answer(away, nullptr), quick = quick_answer(away, &anchor);
+  EXPECT_EQ(own.points, evaluate(scene_of(away), away.texture, fidelity).points);
+  EXPECT_EQ(quick.points,
+            respond(scene_of(away), fidelity,
+                    solve_patches(scene_of(away), away.texture, fidelity, {}, anchor.laws))
+                .points);
+  EXPECT_LT(quick.contact_solves, 0.75 * own.contact_solves);
+  // The anchor itself is answered so, with the numbers of its own laws.
+  EXPECT_EQ(anchor.quick.points, quick_answer(at, &anchor).points);
+  const Response alone = quick_answer(at, nullptr);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_EQ(anchor.quick.points[i].modulation.value, alone.points[i].modulation.value);
+  const double moved = own.points[0].modulation.value;
+  EXPECT_NEAR(quick.points[0].modulation.value, moved, 0.02 * moved);
+  KeptPatches kept;
+  quick_answer(at, nullptr, &kept);
+  EXPECT_EQ(quick_answer(away, &anchor, &kept).points, quick.points);
+}
+
+// A law that was measured where a gap closes says nothing about another design.
+TEST(FirstAnswers, TakeNoLoadLawsOfAnAnchorThatIsPulledIn) {
+  Design at = read_design(kHoles);
+  at.environment.relative_humidity = {0.35};
+  set_number(at, "drive.amplitude", 20000);
+  at.model.air_limit = AirLimit::None;
+  const Anchor anchor = anchor_of(at, response_of({1, 1, 1}));
+  EXPECT_TRUE(anchor.quick.points[0].status.pull_in());
+  EXPECT_TRUE(anchor.laws.empty());
 }
 
 TEST(FirstAnswers, AreComputedOnMorePixelsWhereFeaturesAreNarrow) {
@@ -168,7 +209,7 @@ TEST(FirstAnswers, AreComputedOnMorePixelsWhereFeaturesAreNarrow) {
 
 TEST(FirstAnswers, AreCarriedToDesignsThatDifferInNumbersAlone) {
   const Design at = read_design(kHoles);
-  const Anchor anchor{at, response_of({0.4, 0.8, 0.5}), response_of({0.2, 0.72, 0.4})};
+  const Anchor anchor{at, {}, response_of({0.4, 0.8, 0.5}), response_of({0.2, 0.72, 0.4})};
   const auto carried = [&](const std::function<void(Design&)>& change) {
     Design out = at;
     change(out);
