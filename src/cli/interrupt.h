@@ -7,8 +7,9 @@
 
 namespace papilla::cli {
 
-// While one lives, the first SIGINT or SIGTERM asks the work to end; a second one ends the program
-// at once, as what is kept is whole either way.
+// While one lives, the first SIGINT or SIGTERM asks the work to end, and is acknowledged where
+// somebody sits at a terminal; a second one ends the program at once, as what is kept is whole
+// either way.
 class Interruptible {
  public:
   Interruptible();

@@ -78,6 +78,24 @@ TEST(Progress, FitsATerminalOfEightyColumns) {
   EXPECT_GE(bars, 3u);
 }
 
+// Who presses Ctrl-C at a terminal is told that it was heard; a program that sends it is not.
+TEST(CtrlC, IsAcknowledgedAtATerminal) {
+  const Workplace place;
+  if (place.shell("command -v script").status) GTEST_SKIP() << "needs script (bsdutils)";
+  const std::string heard =
+                        "ending when what is being worked on is done; Ctrl-C again ends at once",
+                    begin = "timeout --foreground --preserve-status -s INT 1 " PAPILLA_PROGRAM
+                            " optimize " PAPILLA_TEST_DATA "/study/tiny.toml --evaluations 100000";
+  const Outcome sitting = place.shell("script -qec '" + begin + " --out a' /dev/null");
+  EXPECT_NE(sitting.out.find(heard), std::string::npos) << sitting.out;
+  EXPECT_NE(sitting.out.find("interrupted; continue with: "), std::string::npos) << sitting.out;
+  EXPECT_EQ(sitting.status, 130);
+  const Outcome alone = place.shell(begin + " --out b");
+  EXPECT_EQ(alone.err.find(heard), std::string::npos) << alone.err;
+  EXPECT_NE(alone.err.find("interrupted; continue with: "), std::string::npos) << alone.err;
+  EXPECT_EQ(alone.status, 130);
+}
+
 TEST(Colours, AreForTerminalsAndStopAtNoColor) {
   const Workplace place;
   const std::string explain = "explain " PAPILLA_DESIGNS_DIR "/m3_samples/flat.toml";
