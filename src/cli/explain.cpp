@@ -1,5 +1,6 @@
 // papilla explain FILE: what would be modelled, what not, why, at which cost and error.
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <cmath>
 #include <iostream>
@@ -54,18 +55,20 @@ std::string aims_text(const Study& study) {
 // What `papilla optimize` would take.
 std::string study_text(const Study& study) {
   const StudyCost cost = study_cost(study);
+  const double clock = search_pace(study) / omp_get_num_procs();
   std::string out =
       aims_text(study) +
       fmt::format(
           "as a study: {} of {} each, then {} designs judged again, {} finalists and checks: {} "
-          "to {} of one core of a usual machine, more on a busy one, and {:.0f} MB a worker\n",
+          "to {} on {} as busy as this machine is now, and about {:.0f} MB a worker\n",
           counted(cost.evaluations, "evaluation"), counted(cost.tasks, "task"), cost.narrowed,
-          cost.finalists, duration(kLeastOfPrice * cost.seconds),
-          duration(kMostOfPrice * cost.seconds), std::ceil(1e-6 * cost.bytes));
+          cost.finalists, duration(kLeastOfPrice * clock * cost.seconds),
+          duration(kMostOfPrice * clock * cost.seconds), counted(omp_get_num_procs(), "processor"),
+          std::ceil(1e-6 * cost.bytes));
   if (cost.members > 0)
     out += fmt::format("of that the finalists at {} of belief take up to {}\n",
                        counted(static_cast<int>(cost.members), "member"),
-                       duration(cost.belief_seconds));
+                       duration(clock * cost.belief_seconds));
   out += fmt::format("it searches on {0} x {0} pixels along 12 um", cost.pixels);
   if (std::isfinite(cost.feature))
     out += fmt::format(", the smallest feature of its space, {:.3g} nm, is {:.2g} of them wide",

@@ -161,11 +161,12 @@ std::string resume_command(const OptimizeOptions& options, const std::string& fo
   return out;
 }
 
-// What the search will take: its price over as many tasks as are evaluated at a time.
+// What the search will take: its price at the machine's pace, over as many tasks as are evaluated
+// at a time.
 std::string price_text(const Study& study) {
   const StudyCost cost = study_cost(study);
   const int wanted = study.search.jobs > 0 ? study.search.jobs : omp_get_num_procs();
-  const double seconds = cost.seconds / std::min(wanted, omp_get_num_procs());
+  const double seconds = search_pace(study) * cost.seconds / std::min(wanted, omp_get_num_procs());
   std::string out = fmt::format("expected: {} to {} on {}, for {}",
                                 duration(kLeastOfPrice * seconds), duration(kMostOfPrice * seconds),
                                 counted(std::min(wanted, omp_get_num_procs()), "processor"),
@@ -230,7 +231,7 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     const StudyProblem problem(study);
     if (const auto wrong = problem.constraints().contradiction(); wrong && wrong->flat_keeps)
       context.note("warning: " + wrong->text + "; only the flat surface is left");
-    context.note(price_text(study));
+    if (!context.quiet) context.note(price_text(study));
   }
   const auto begin = std::chrono::steady_clock::now();
   const OptimiseResult result = optimise_to_folder(study, run);

@@ -1,9 +1,13 @@
 #include "forward/price.h"
 
+#include <omp.h>
+
 #include <algorithm>
+#include <chrono>
 #include <ctime>
 
 #include "base/constants.h"
+#include "base/parallel.h"
 #include "forward/field_ratio.h"
 #include "forward/patch_set.h"
 #include "forward/patch_setup.h"
@@ -84,6 +88,32 @@ double measured_seconds(const Scene& scene, const Texture& texture, const Fideli
       std::min(1.0, square(static_cast<double>(kMostFieldPixels) / fidelity.grid));
   const double one = seconds_of([&] { field_ratios(once, texture, few); });
   return out + one + (fields - 1) * std::max(0.0, one - again * pixels);
+}
+
+double machine_pace(const std::vector<Scene>& scenes, const Texture& texture,
+                    const Fidelity& fidelity) {
+  constexpr double kLong = 0.6;  // [s] of shorter work a busy machine says one thing, then another
+  const int processors = omp_get_num_procs();
+  Fidelity one = fidelity;
+  one.threads = 1;
+  one.control_skins = 0;
+  one.field_skins = 0;
+  const auto all_at_work = [&] {
+    for (const Scene& scene : scenes)
+      parallel_for(
+          processors, [&](int) { solve_patches(scene, texture, one); }, processors);
+  };
+  all_at_work();  // tables and transforms, which are made once
+  double took = 0;
+  int times = 0;
+  const auto begin = std::chrono::steady_clock::now();
+  do {
+    all_at_work();
+    took = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    ++times;
+  } while (took < kLong);
+  return took / (times * static_cast<double>(scenes.size()) *
+                 make_plan(scenes.front(), texture, one).seconds());
 }
 
 }  // namespace papilla::forward

@@ -1,6 +1,8 @@
 // What an evaluation takes on the machine at hand, before it is begun.
 #pragma once
 
+#include <vector>
+
 #include "base/rooms.h"
 #include "forward/fidelity.h"
 #include "geometry/texture.h"
@@ -14,5 +16,11 @@ namespace papilla::forward {
 // every machine, it knows how hard this scene is and how fast this machine; `papilla bench
 // --prices` says how well. Cost: what it solves, 2 to 15 % of the evaluation.
 double measured_seconds(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
+
+// Seconds that each processor of this machine takes, all of them at work, for a second of work as
+// plans price it of the first scene: how fast the machine is, what else it does at this moment, how
+// hard these scenes are. Of the clock. Cost: .6 s at least.
+double machine_pace(const std::vector<Scene>& scenes, const Texture& texture,
+                    const Fidelity& fidelity);
 
 }  // namespace papilla::forward

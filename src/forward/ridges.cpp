@@ -72,25 +72,29 @@ const std::vector<double>& GapShares::gaps() {
 GapShares gap_shares(const GapDistribution& gaps, double q) {
   const std::vector<double>& row = GapShares::gaps();
   const double step = std::log1p(kWidest / kFinest) / (kGaps - 1);
-  GapShares out{std::vector<double>(kGaps, 0)};
+  std::vector<double> all(kGaps, 0);
   gaps.visit_far(kFinest, q, [&](double u, double share) {
     const auto last = static_cast<double>(kGaps - 2);
     const auto i = static_cast<std::size_t>(std::min(std::log1p(u / kFinest) / step, last));
     const double t = std::clamp((u - row[i]) / (row[i + 1] - row[i]), 0.0, 1.0);
-    out.share[i] += (1 - t) * share;
-    out.share[i + 1] += t * share;
+    all[i] += (1 - t) * share;
+    all[i + 1] += t * share;
   });
-  return out;
+  const auto some = [](double share) { return share > 0; };
+  const auto begin = std::find_if(all.begin(), all.end(), some);
+  const auto end = std::find_if(all.rbegin(), std::make_reverse_iterator(begin), some).base();
+  return {static_cast<std::size_t>(begin - all.begin()), {begin, end}};
 }
 
 std::shared_ptr<const RidgeGaps> ridge_gaps(const Finger& finger, double q_patch,
                                             double relative_humidity, double mean_pressure) {
   using Key = std::tuple<double, double, double, MacroContact, Skin>;
-  // Of every humidity, finger and member of a belief: designs of one patch size have them in turn.
-  constexpr double kMostBytes = 64e6;
-  static Cache<Key, RidgeGaps> cache(512, kMostBytes);
+  // Of every humidity, finger and member of a belief (528 in the default study): designs of one
+  // patch size have them in turn, so that one too many would leave none.
+  constexpr double kBytes = 70e3, kMostBytes = 72e6;  // shares at some 190 of the gaps, the field
+  static Cache<Key, RidgeGaps> cache(1024, kMostBytes);
   const Key key{q_patch, relative_humidity, mean_pressure, finger.macro, finger.skin};
-  return cache.get(key, 2 * kPressures * kGaps * sizeof(double), [&] {
+  return cache.get(key, kBytes, [&] {
     auto out = std::make_shared<RidgeGaps>(
         RidgeGaps{ridge_field(finger, q_patch, relative_humidity, {.intervals = kIntervals}),
                   q_patch,

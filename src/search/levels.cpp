@@ -7,6 +7,7 @@
 
 #include "estimate/belief.h"
 #include "forward/plan.h"
+#include "forward/price.h"
 #include "search/building.h"
 #include "search/stability.h"
 
@@ -24,6 +25,17 @@ constexpr int kStepSkins = 12, kMembersSkins = 8, kLeastMemberSkins = 4, kStepGr
 // Peak of a process, measured at 128, 256, 512 and 1024 pixels per side (53, 62, 104 and 262 MB):
 // heights, gap, pressure, tractions, field and their transforms.
 constexpr double kBytesOfProgram = 50e6, kBytesPerPixel = 210;
+// Of designs for those to come a worker keeps kernels of 32 bytes a pixel (contact/kernel.cpp),
+// skins of 8 (forward/patch_setup.cpp), their waves and what films do, and, of members of belief,
+// gaps of the ridges (forward/ridges.cpp). What the allocator and small tables add is measured: a
+// worker of the default study has 368 MB.
+constexpr double kKernels = 64, kMostKernelPixels = 1 << 24, kSkins = 256, kMostSkinBytes = 64e6,
+                 kWavesAndFilms = 384, kMostOfThem = 128e6, kBytesOfMembers = 72e6, kAdded = 1.25;
+double kept_bytes(double pixels, bool belief) {
+  return kAdded * (32 * std::min(kKernels * pixels, kMostKernelPixels) +
+                   std::min(8 * kSkins * pixels, kMostSkinBytes) +
+                   std::min(kWavesAndFilms * pixels, kMostOfThem) + (belief ? kBytesOfMembers : 0));
+}
 // Where time is short: skins are given up first, down to these, then pixels, then more skins.
 constexpr int kFewSkins = 8, kFewestSkins = 4, kFewPixels = 64;
 // Pixels of the search: so many across the smallest feature of the space (docs/theory/search.md).
@@ -206,6 +218,14 @@ double over_price(Stage stage) {
   return 1;
 }
 
+double search_pace(const Study& study) {
+  const StudyProblem problem(study);
+  std::vector<Scene> scenes;
+  for (std::size_t t = 0; t < problem.nominal_tasks(); ++t)
+    scenes.push_back(scene_of(task_design(study, study.design, problem.tasks()[t])));
+  return machine_pace(scenes, study.design.texture, stage_fidelity(problem, Stage::Search));
+}
+
 StudyCost study_cost(const Study& study) {
   const StudyProblem problem(study);
   const SearchProblem search = search_problem(problem);
@@ -237,8 +257,9 @@ StudyCost study_cost(const Study& study) {
   out.pixels = stage_fidelity(problem, Stage::Search).grid;
   out.feature = problem.smallest_feature();
   out.feature_pixels = out.feature * out.pixels / kWindow;
-  const Grid grid = plan_at(problem, stage_fidelity(problem, Stage::Confirm)).grid;
-  out.bytes = kBytesOfProgram + kBytesPerPixel * static_cast<double>(grid.size());
+  const auto pixels =
+      static_cast<double>(plan_at(problem, stage_fidelity(problem, Stage::Confirm)).grid.size());
+  out.bytes = kBytesOfProgram + kBytesPerPixel * pixels + kept_bytes(pixels, problem.has_belief());
   return out;
 }
 

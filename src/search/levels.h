@@ -35,10 +35,12 @@ double task_price(const StudyProblem& problem, Stage stage, double most_seconds 
 // of shipped studies (docs/theory/search.md).
 double over_price(Stage stage);
 
-// What shipped studies took of their price on a quiet machine (docs/theory/search.md).
-inline constexpr double kLeastOfPrice = 0.6, kMostOfPrice = 1.25;
+// What shipped studies took of their price at the pace of the machine (docs/theory/search.md).
+inline constexpr double kLeastOfPrice = 0.9, kMostOfPrice = 1.9;
+// `machine_pace` at the search's level, of the study's own design under each of its tasks.
+double search_pace(const Study& study);
 
-// What a search takes, as plans price it: all of it on one core of a usual machine.
+// What a search takes, as plans price it.
 struct StudyCost {
   int evaluations = 0, tasks = 0;  // of an evaluation
   std::size_t narrowed = 0, finalists = 0;
@@ -46,7 +48,7 @@ struct StudyCost {
   std::size_t members = 0;                 // of belief, at each of which the finalists are judged
   double belief_seconds = 0;               // of them
   std::size_t plates = 0;                  // of the yield of what is built; 0: it has none
-  double bytes = 0;                        // the largest patch of a worker, solved
+  double bytes = 0;                        // of a worker, with what it keeps
   int pixels = 0;                          // of the search, along 12 um
   double feature = 0, feature_pixels = 0;  // the smallest of the space [m]; infinite: none
 };

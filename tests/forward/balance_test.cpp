@@ -244,6 +244,27 @@ TEST(Balance, TheLawOfOpenGapsIsTheSumOverASolvedMap) {
   }
 }
 
+// What lies between two gaps of the row is shared out between them: nothing and no length is lost.
+TEST(GapShares, KeepTheAreaAndTheMeanGapOnTheirPartOfTheRow) {
+  GapDistribution gaps;
+  gaps.share = {0.3, 0.7}, gaps.offset = {1e-6, 20e-6}, gaps.width = {0.1e-6, 2e-6};
+  gaps.wave_number = {1, 1};
+  const GapShares row = gap_shares(gaps, 10);
+  ASSERT_FALSE(row.share.empty());
+  EXPECT_GT(row.share.front(), 0);
+  EXPECT_GT(row.share.back(), 0);
+  EXPECT_GT(row.gap(0), 0.2e-6);
+  EXPECT_LT(row.gap(row.share.size() - 1), 40e-6);
+  double area = 0, volume = 0;
+  for (std::size_t i = 0; i < row.share.size(); ++i) {
+    area += row.share[i];
+    volume += row.share[i] * row.gap(i);
+  }
+  EXPECT_NEAR(area, 1, 1e-6);
+  EXPECT_NEAR(volume, 0.3 * 1e-6 + 0.7 * 20e-6, 1e-6 * volume);
+  EXPECT_TRUE(gap_shares(gaps, 0.5).share.empty());
+}
+
 // Where skin comes to rest: on half of the area as on glass that has lost next to nothing by it,
 // and never above the highest place.
 TEST(Balance, SkinRestsOnTheHighestPlaces) {

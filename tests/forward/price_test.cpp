@@ -55,6 +55,7 @@ TEST(Price, LeavesTheAnswersAsTheyAre) {
   const Texture texture{HoleArray{}};
   const Response before = evaluate(scene, texture, small());
   measured_seconds(scene, texture, small());
+  EXPECT_GT(machine_pace({scene}, texture, small()), 0);
   const Response after = evaluate(scene, texture, small());
   for (std::size_t i = 0; i < before.points.size(); ++i) {
     EXPECT_EQ(before.points[i].friction_off.value, after.points[i].friction_off.value);

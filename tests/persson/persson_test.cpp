@@ -516,7 +516,7 @@ TEST(GfmdSimulation, AreaIsWithinTenPercent) {
 
 // Eq. persson.7 with gamma = 1 is half an exponential integral, E1(1/y) / 2.
 TEST(GapIntegrals, NodesOfTheTableAreExponentialIntegrals) {
-  const std::vector<double> table = gap_integral_table(1);
+  const std::vector<double> table = *gap_integral_table(1);
   for (int exponent = -3; exponent < 60; exponent += 7) {
     for (int cell : {0, 1, 77, 127}) {
       const double y = std::ldexp(1 + cell / 128.0, exponent);

@@ -302,8 +302,8 @@ TEST(MeanFieldTheory, PiecesOfASpectrumAreDividedInEqualSteps) {
 
 // 3 (1 - gamma) erf^2 beside gamma, linear between the nodes, and both ends of the table.
 TEST(GapIntegrals, AreTheIntegralOfEitherPartAndLinearBetweenNodes) {
-  const std::vector<double> none = gap_integral_table(0), all = gap_integral_table(1),
-                            some = gap_integral_table(0.45);
+  const std::vector<double> none = *gap_integral_table(0), all = *gap_integral_table(1),
+                            some = *gap_integral_table(0.45);
   ASSERT_EQ(none.size(), 126u * 128 + 1);  // octaves from 2^-6 to 2^120
   for (std::size_t i = 0; i < none.size(); i += 97)
     EXPECT_NEAR(some[i], 0.45 * all[i] + 0.55 * none[i], 1e-14);

@@ -298,7 +298,9 @@ TEST(Decision, ItsPriceIsStated) {
   EXPECT_GT(with.belief_seconds, 0);
   EXPECT_NE(search_plan(study).find("3 members"), std::string::npos);
   study.design.finger.belief.clear();
-  EXPECT_EQ(study_cost(study).members, 0u);
+  const StudyCost without = study_cost(study);
+  EXPECT_EQ(without.members, 0u);
+  EXPECT_GT(with.bytes, without.bytes + 50e6);
 }
 
 // Interrupted after any answer, of a check as well, and continued: nothing is asked twice, and the

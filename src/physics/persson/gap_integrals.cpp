@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/cache.h"
 #include "base/constants.h"
 #include "numerics/quadrature.h"
 
@@ -43,13 +44,17 @@ const GapIntegrals& gap_integrals() {
 
 }  // namespace
 
-std::vector<double> gap_integral_table(double energy_factor) {
-  const GapIntegrals& integrals = gap_integrals();
-  std::vector<double> table(kTableSize);
-  for (int i = 0; i < kTableSize; ++i) {
-    table[i] = energy_factor * integrals.plain[i] + 3 * (1 - energy_factor) * integrals.squared[i];
-  }
-  return table;
+std::shared_ptr<const std::vector<double>> gap_integral_table(double energy_factor) {
+  static Cache<double, std::vector<double>> cache(8, kInfinity);
+  return cache.get(energy_factor, 0, [&] {
+    const GapIntegrals& integrals = gap_integrals();
+    auto table = std::make_shared<std::vector<double>>(kTableSize);
+    for (int i = 0; i < kTableSize; ++i) {
+      (*table)[i] =
+          energy_factor * integrals.plain[i] + 3 * (1 - energy_factor) * integrals.squared[i];
+    }
+    return table;
+  });
 }
 
 }  // namespace papilla::persson

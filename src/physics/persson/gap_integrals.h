@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "base/rooms.h"
@@ -17,8 +18,8 @@ inline constexpr int kCellsPerOctave = 128;
 inline constexpr int kTableSize = (kHighExponent - kLowExponent) * kCellsPerOctave + 1;
 inline constexpr double kLowestNode = 0x1p-6;
 
-// H at the nodes for an energy factor gamma.
-std::vector<double> gap_integral_table(double energy_factor);
+// H at the nodes for an energy factor gamma. Kept: all mean fields of one factor share it.
+std::shared_ptr<const std::vector<double>> gap_integral_table(double energy_factor);
 
 // Linear between nodes; 0 below the first, the last value above the last.
 inline double look_up(const std::vector<double>& table, double y) {

@@ -163,11 +163,12 @@ double MeanField::elastic_energy(double pressure) const {
 
 double MeanField::gap_from(std::size_t node, double pressure_here) const {
   const double start = measure_[node], inverse = 1 / square(pressure_here);
+  const std::vector<double>& table = *gap_table_;
   double sum = 0;
   for (std::size_t k = weight_.size(); k-- > 2 * node;) {
     const double y = (measure_mid_[k] - start) * inverse;
     if (y <= kLowestNode) break;  // M rises with q: nothing nearer contributes
-    sum += weight_[k] * look_up(gap_table_, y);
+    sum += weight_[k] * look_up(table, y);
   }
   return sum / pressure_here;
 }

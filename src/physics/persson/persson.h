@@ -7,6 +7,7 @@
 
 #include <complex>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -126,12 +127,12 @@ class MeanField {
   PowerSpectrum spectrum_;
   MeanFieldSolid solid_;
   MeanFieldOptions options_;
-  std::vector<double> q_;            // nodes
-  std::vector<double> measure_;      // M at nodes
-  std::vector<double> variance_;     // roughness above each node [m^2]
-  std::vector<double> measure_mid_;  // M at two Gauss points per interval
-  std::vector<double> weight_;       // sqrt(pi) q^2 C E* dq there
-  std::vector<double> gap_table_;    // F of Eq. persson.7
+  std::vector<double> q_;                                 // nodes
+  std::vector<double> measure_;                           // M at nodes
+  std::vector<double> variance_;                          // roughness above each node [m^2]
+  std::vector<double> measure_mid_;                       // M at two Gauss points per interval
+  std::vector<double> weight_;                            // sqrt(pi) q^2 C E* dq there
+  std::shared_ptr<const std::vector<double>> gap_table_;  // F of Eq. persson.7
 };
 
 // The spectrum after plastic flattening at hardness yield [Pa] under a pressure: its elastic
