@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <string_view>
 #include <thread>
@@ -35,19 +36,30 @@ bool write_all(int fd, const std::string& bytes) {
   return true;
 }
 
-double steady_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+// What passed while this process ran: of a stop, Ctrl-Z of it and its workers, a second counts.
+double awake_seconds() {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::duration<double> kMost(1);
+  static std::mutex mutex;
+  static Clock::time_point last = Clock::now();
+  static double awake = 0;
+  const std::lock_guard lock(mutex);
+  const Clock::time_point now = Clock::now();
+  awake += std::min<std::chrono::duration<double>>(now - last, kMost).count();
+  last = now;
+  return awake;
 }
 
+// Half a second at most, for awake_seconds.
 int poll_milliseconds(double seconds) {
-  return static_cast<int>(std::clamp(seconds, 0.0, 3600.0) * 1000) + 1;
+  return static_cast<int>(std::clamp(seconds, 0.0, 0.5) * 1000) + 1;
 }
 
 // Until the buffer is full; false at the end of the stream or the deadline (timed_out tells which).
 bool read_all(int fd, char* buffer, std::size_t size, double deadline, bool& timed_out) {
   timed_out = false;
   while (size > 0) {
-    const double left = deadline - steady_seconds();
+    const double left = deadline - awake_seconds();
     if (left <= 0) {
       timed_out = true;
       return false;
@@ -174,10 +186,10 @@ void Worker::send(const Bytes& request) {
   ::signal(SIGPIPE, SIG_IGN);  // a dead child shows as a failed write
   request_ = request;
   sent_ = write_message(to_child_, request);
-  deadline_ = steady_seconds() + limits_.seconds;
+  deadline_ = awake_seconds() + limits_.seconds;
 }
 
-double Worker::seconds_left() const { return deadline_ - steady_seconds(); }
+double Worker::seconds_left() const { return deadline_ - awake_seconds(); }
 
 WorkAnswer Worker::receive() {
   for (int left = request_.empty() ? 0 : 1;; --left) {

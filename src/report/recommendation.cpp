@@ -166,16 +166,21 @@ std::string worth_building(const ResultFiles& f) {
                      worst_text("the same surface without texture", r.flat->worst)
                : ""));
   }
-  std::vector<std::string> broken;
-  for (const LimitValue& v : broken_without_texture(f.problem, r))
-    broken.push_back(limit_broken(v));
-  if (!broken.empty())
-    clauses.push_back(fmt::format("Without its texture the same surface breaks a limit: {}.",
-                                  join_names(broken)));
-  if (const std::string same = gains_and_costs(f, "the best less the same surface without texture",
-                                               best.confirmed, *r.flat);
-      !same.empty())
-    clauses.push_back("Against the same surface without texture it " + same + ".");
+  if (r.flat) {
+    std::vector<std::string> broken;
+    for (const LimitValue& v : broken_without_texture(f.problem, r))
+      broken.push_back(limit_broken(v));
+    if (!broken.empty())
+      clauses.push_back(fmt::format("Without its texture the same surface breaks a limit: {}.",
+                                    join_names(broken)));
+    if (const std::string same = gains_and_costs(
+            f, "the best less the same surface without texture", best.confirmed, *r.flat);
+        !same.empty())
+      clauses.push_back("Against the same surface without texture it " + same + ".");
+  } else {
+    clauses.push_back("The same surface without texture has no number to compare with (" +
+                      r.flat_unanswered->reason + ").");
+  }
   const auto flat = best_flat(f.problem, r);
   const std::string of_flat = "the best flat surface of the run";
   if (flat &&
@@ -194,6 +199,11 @@ std::string worth_building(const ResultFiles& f) {
                      finish.empty() ? "" : " with " + finish, join_names(clauses, " "));
 }
 
+// Why a surface has none, of one that was asked or was not.
+std::string without_number(const std::optional<Score>& asked) {
+  return asked ? "has no number (" + asked->reason + ")" : "was not computed in the time";
+}
+
 std::string leave_flat(const ResultFiles& f) {
   const std::string others = other_textures(f);
   return fmt::format("Leave it flat: {}.{}{}",
@@ -207,9 +217,10 @@ std::string change_finish(const ResultFiles& f) {
                     none = no_texture(f, "no texture of this search adds", !others.empty());
   if (!r.flat_before) {
     return fmt::format(
-        "Leave it flat: {}. What the finish does ({}) is not known: the study's own surface was "
-        "not computed in the time.{}{}{}",
-        none, finish_text(f), others, rounding_text(f), unstable_recommended(f));
+        "Leave it flat: {}. What the finish does ({}) is not known: the study's own surface {}."
+        "{}{}{}",
+        none, finish_text(f), without_number(r.flat_before_unanswered), others, rounding_text(f),
+        unstable_recommended(f));
   }
   return fmt::format("Leave it flat and change the finish ({}): that gains {}; {}.{}{}{}",
                      finish_text(f),
@@ -304,8 +315,11 @@ std::string recommendation(const ResultFiles& f) {
     case Advice::Nothing:
       return "Build none of these: no design that was tried keeps every constraint.";
     case Advice::Unknown:
-      return "Whether a texture is worth building is not known: the surface without it was not "
-             "computed in the time.";
+      return fmt::format(
+          "Whether a texture is worth building is not known: the surface without it {}. What "
+          "follows is of {}, the best of the front.{}",
+          without_number(f.result.flat_unanswered), design_name(best_of(f).folder),
+          unstable_recommended(f));
     case Advice::LeaveFlat:
       return leave_flat(f);
     case Advice::Finish:

@@ -47,7 +47,11 @@ std::vector<LimitValue> broken_without_texture(const StudyProblem& problem,
 Advice advice_of(const StudyProblem& problem, const OptimiseResult& r) {
   if (!r.has_best() || !best_of(r).feasible) return Advice::Nothing;
   const bool textured = facts(best_of(r).design.texture).relief.present;
-  if (textured && !r.flat) return Advice::Unknown;
+  if (textured && !r.flat) {
+    const bool pulled_in =
+        r.flat_unanswered && r.flat_unanswered->kind == TaskStatus::Kind::NoEquilibrium;
+    return pulled_in ? Advice::Texture : Advice::Unknown;
+  }
   const auto beats = [&](const Score& design, const FinalDesign& other) {
     return !no_better(problem.objectives(), design, other.confirmed) ||
            !broken(problem, other).empty();

@@ -12,10 +12,10 @@ namespace papilla::search {
 
 enum class Advice {
   Nothing,    // no design keeps every constraint
-  Unknown,    // the surface without texture was not computed
+  Unknown,    // the surface without texture was not asked, or has no answer
   LeaveFlat,  // no texture gains more than the error of the difference; nor does the finish
   Finish,     // the finish (or drive) gains, the texture does not
-  Texture,    // the texture gains
+  Texture,    // the texture gains, or the surface without it is pulled in
 };
 Advice advice_of(const StudyProblem& problem, const OptimiseResult& result);
 

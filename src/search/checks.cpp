@@ -69,21 +69,22 @@ void pick(Run& run) {
 // What of the gain is the texture's and what the finish's: the best surface without its texture,
 // and the study's own surface without texture where the search changed more than the texture.
 void compare_with_flat(Run& run) {
-  const auto keep = [&](std::optional<Score>& to, const Point& unit) {
+  const auto keep = [&](std::optional<Score>& answered, std::optional<Score>& unanswered,
+                        const Point& unit) {
     Score score = run.replay.scores({unit}, Stage::Confirm, true, run.confirm_seconds).front();
-    if (score.ok) to = std::move(score);
+    (score.ok ? answered : unanswered) = std::move(score);
   };
   const Point own = run.problem.space().unit_of_study();
   const Point& best = run.result.finalists[run.result.best].unit;
   const bool finish_differs = !changed_finish(run.problem, run.result).empty();
   const double seconds = run.seconds_of_designs(1, Stage::Confirm);
   if (!run.begin(RunPart::Flat, Stage::Confirm, true, seconds)) return;
-  keep(run.result.flat, best);
+  keep(run.result.flat, run.result.flat_unanswered, best);
   if (!finish_differs) return;
   const auto next = run.replay.next();
   const bool recorded = next && next->stage == Stage::Confirm && next->flat;
   if (recorded || (!run.replay.finished(Stage::Confirm, true) && run.fits(seconds)))
-    keep(run.result.flat_before, own);
+    keep(run.result.flat_before, run.result.flat_before_unanswered, own);
   else
     run.cut(RunPart::Flat, 1, 2);
 }

@@ -96,6 +96,8 @@ struct OptimiseResult {
   std::size_t best = 0;                 // of the finalists: highest worst modulation, or as picked
   std::optional<Score> flat;            // the best surface without its texture, confirmed
   std::optional<Score> flat_before;  // the study's own, where the best has another finish or drive
+  // Either, where it was asked and has no answer, as of a surface that is pulled in.
+  std::optional<Score> flat_unanswered, flat_before_unanswered;
   std::optional<BuiltDesign> build;
   Decision decision;           // by belief
   std::optional<Yield> yield;  // of what is built, where it was judged and numbers scatter

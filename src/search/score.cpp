@@ -188,6 +188,7 @@ Score score_of(const Scoring& scoring, const std::vector<TaskAnswer>& answers) {
   for (std::size_t t = 0; t < answers.size(); ++t) {
     if (!answers[t].status.ok()) {
       score.reason = scoring.tasks[t].name + ": " + answers[t].status.text;
+      score.kind = answers[t].status.kind;
       return score;
     }
     if (t < scoring.nominal) score.reports.push_back(answers[t].report);

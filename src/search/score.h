@@ -29,6 +29,7 @@ struct YieldShare {
 struct Score {
   bool ok = false;
   std::string reason;  // when not ok: the first task without an answer, and why
+  TaskStatus::Kind kind = TaskStatus::Kind::Ok;  // of that task
   // One per objective; one standard error of what is the design's own: all but the parameters.
   // Values: the risk over tasks, scatter and humidities. Errors: the mean over tasks, which share
   // their skins; of confirmed designs from `samples` where a risk is over them.

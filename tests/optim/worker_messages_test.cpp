@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -123,6 +124,32 @@ TEST(Messages, WorkThatTakesTooLongIsEndedAndTold) {
   worker.send("");
   EXPECT_EQ(worker.receive().failure,
             (WorkFailure{Reason::TimedOut, "took longer than 0 s and was ended"}));
+}
+
+// Ctrl-Z and `fg` in a terminal: a run and its workers are stopped and go on.
+TEST(Team, ThatWasStoppedByATerminalEndsNoWorkForIt) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::setpgid(0, 0);
+    const auto team = make_local_team(2,
+                                      [](const Bytes& request) {
+                                        std::this_thread::sleep_for(std::chrono::milliseconds(600));
+                                        return request;
+                                      },
+                                      {.seconds = 2});
+    const std::vector<WorkAnswer> answers = team->answer({"a", "b", "c"});
+    const bool all = answers.size() == 3 && answers[0].bytes == "a" && answers[1].bytes == "b" &&
+                     answers[2].bytes == "c";
+    ::_exit(all ? 0 : 1);
+  }
+  ASSERT_GT(child, 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  ASSERT_EQ(::kill(-child, SIGSTOP), 0);
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  ASSERT_EQ(::kill(-child, SIGCONT), 0);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
 }
 
 // More workers than requests, one for all of them, none asked for: each answer at its place.

@@ -235,6 +235,28 @@ TEST(BuildSheet, SaysWhatTheTextureGainsAndItsTolerances) {
       "texture of this search adds more than the error of the difference.");
   costly.result.flat.reset();
   EXPECT_EQ(advice_of(costly.problem, costly.result), Advice::Unknown);
+  EXPECT_NE(as_read(recommendation(costly.files()))
+                .find("is not known: the surface without it was not computed in the time. What "
+                      "follows is of design 01, the best of the front."),
+            std::string::npos)
+      << as_read(recommendation(costly.files()));
+  // Asked, and without an answer: the texture is worth building where there is no equilibrium.
+  Score& unanswered = costly.result.flat_unanswered.emplace();
+  unanswered.kind = TaskStatus::Kind::TimedOut;
+  unanswered.reason = "smooth: took longer than 600 s and was ended";
+  EXPECT_EQ(advice_of(costly.problem, costly.result), Advice::Unknown);
+  EXPECT_NE(as_read(recommendation(costly.files()))
+                .find("the surface without it has no number (smooth: took longer than 600 s"),
+            std::string::npos);
+  unanswered.kind = TaskStatus::Kind::NoEquilibrium;
+  unanswered.reason = "smooth, 75 % RH: pull-in: no equilibrium short of a closed gap";
+  EXPECT_EQ(advice_of(costly.problem, costly.result), Advice::Texture);
+  const std::string lead = as_read(recommendation(costly.files()));
+  EXPECT_TRUE(lead.starts_with("Build design 01 (")) << lead;
+  EXPECT_NE(lead.find("The same surface without texture has no number to compare with (smooth, 75 "
+                      "% RH: pull-in: no equilibrium short of a closed gap)."),
+            std::string::npos)
+      << lead;
   costly.result.finalists[0].feasible = false;
   EXPECT_EQ(advice_of(costly.problem, costly.result), Advice::Nothing);
 }
