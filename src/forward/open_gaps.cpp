@@ -204,10 +204,11 @@ double HungWater::at(const std::vector<double>& values, double hang) const {
 
 void HungWater::add(const GapShares& hangs, OpenGapForces& out) const {
   if (capillary_.empty()) return;
+  const std::span<const double> hang = hangs.gaps();
   double capillary = 0, held = 0;
-  for (std::size_t i = 0; i < hangs.share.size(); ++i) {
-    capillary += hangs.share[i] * at(capillary_, hangs.gap(i));
-    held += hangs.share[i] * at(retention_, hangs.gap(i)) * water_.rest.hysteresis;
+  for (std::size_t i = 0; i < hang.size(); ++i) {
+    capillary += hangs.share[i] * at(capillary_, hang[i]);
+    held += hangs.share[i] * at(retention_, hang[i]) * water_.rest.hysteresis;
   }
   out.capillary += wetting_gain(water_.rest.theta_skin, water_.rest.theta_substrate) * capillary;
   out.capillary_on +=
@@ -229,12 +230,13 @@ double open_gap_pull(const GapShares& gaps, const SurfaceLevels& levels,
     const double most = std::min(air_field_limit(field.air_limit, air), field.film_holds);
     return field2 * clipped_share(most / (peak * std::sqrt(field2)), field.steady);
   };
+  const std::span<const double> gap = gaps.gaps();
   // Eq. coupling.8: levels one by one, all gaps over each.
   const auto mean = [&](double below, double film) {
     const double rest = film + field.skin_layer.real();
     double sum = 0;
-    for (std::size_t k = 0; k < gaps.share.size(); ++k)
-      sum += gaps.share[k] * held(std::abs(gaps.gap(k) + below), rest);
+    for (std::size_t k = 0; k < gap.size(); ++k)
+      sum += gaps.share[k] * held(std::abs(gap[k] + below), rest);
     return sum;
   };
   double sum = 0;

@@ -58,7 +58,7 @@ MeanField ridge_field(const Finger& finger, double q_patch, double relative_humi
                    options);
 }
 
-const std::vector<double>& GapShares::gaps() {
+const std::vector<double>& GapShares::row() {
   static const std::vector<double> row = [] {
     std::vector<double> out;
     const double step = std::log1p(kWidest / kFinest) / (kGaps - 1);
@@ -70,7 +70,7 @@ const std::vector<double>& GapShares::gaps() {
 }
 
 GapShares gap_shares(const GapDistribution& gaps, double q) {
-  const std::vector<double>& row = GapShares::gaps();
+  const std::vector<double>& row = GapShares::row();
   const double step = std::log1p(kWidest / kFinest) / (kGaps - 1);
   std::vector<double> all(kGaps, 0);
   gaps.visit_far(kFinest, q, [&](double u, double share) {

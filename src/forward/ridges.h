@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/rooms.h"
@@ -22,8 +23,8 @@ struct GapShares {
   std::size_t first = 0;     // of the row that has a share; those before and behind have none
   std::vector<float> share;  // of the gaps from there on
 
-  static const std::vector<double>& gaps();  // the row: ascending from 0
-  double gap(std::size_t i) const { return gaps()[first + i]; }
+  static const std::vector<double>& row();  // ascending from 0
+  std::span<const double> gaps() const { return std::span(row()).subspan(first, share.size()); }
 };
 // Of patches that do not touch; of all that do not touch where q is beyond the spectrum.
 GapShares gap_shares(const GapDistribution& gaps, double q);

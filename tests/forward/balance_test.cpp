@@ -253,12 +253,12 @@ TEST(GapShares, KeepTheAreaAndTheMeanGapOnTheirPartOfTheRow) {
   ASSERT_FALSE(row.share.empty());
   EXPECT_GT(row.share.front(), 0);
   EXPECT_GT(row.share.back(), 0);
-  EXPECT_GT(row.gap(0), 0.2e-6);
-  EXPECT_LT(row.gap(row.share.size() - 1), 40e-6);
+  EXPECT_GT(row.gaps().front(), 0.2e-6);
+  EXPECT_LT(row.gaps().back(), 40e-6);
   double area = 0, volume = 0;
   for (std::size_t i = 0; i < row.share.size(); ++i) {
     area += row.share[i];
-    volume += row.share[i] * row.gap(i);
+    volume += row.share[i] * row.gaps()[i];
   }
   EXPECT_NEAR(area, 1, 1e-6);
   EXPECT_NEAR(volume, 0.3 * 1e-6 + 0.7 * 20e-6, 1e-6 * volume);

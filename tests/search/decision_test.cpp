@@ -300,7 +300,7 @@ TEST(Decision, ItsPriceIsStated) {
   study.design.finger.belief.clear();
   const StudyCost without = study_cost(study);
   EXPECT_EQ(without.members, 0u);
-  EXPECT_GT(with.bytes, without.bytes + 50e6);
+  EXPECT_NEAR(with.bytes, without.bytes + 1.25 * 72e6, 1);
 }
 
 // Interrupted after any answer, of a check as well, and continued: nothing is asked twice, and the
