@@ -120,13 +120,13 @@ std::vector<FinalDesign> judged(const StudyProblem& problem, const std::vector<P
 class Truth {
  public:
   Truth(const StudyProblem& problem, const std::vector<FinalDesign>& designs, const PickRule& rule,
-        const std::vector<Extent>& extent, std::optional<std::size_t> member) {
+        const std::vector<ObjectiveRange>& ranges, std::optional<std::size_t> member) {
     for (const int first_skin : kTruthSets) {
       MemberWorth worth{{1}, {}, {}};
       for (const FinalDesign& f : designs) {
         const Score score = true_score(problem, f.design, first_skin, member);
         worth.worth.push_back(
-            {score.ok ? pick_worth(rule, pick_candidate(problem, score), extent) : std::nan("")});
+            {score.ok ? pick_worth(rule, pick_candidate(problem, score), ranges) : std::nan("")});
         worth.kept.push_back({{problem.feasible(score, f.design)}});
       }
       prospects_.push_back(prospects(worth, {}));
@@ -186,9 +186,12 @@ int planted_truths(const std::string& file, const std::string& front, std::size_
   for (const FinalDesign& f : designs) candidates.push_back(pick_candidate(problem, f.confirmed));
   if (candidates.size() < 2) throw InputError(front + ": fewer than two designs keep every limit");
   const PickRule rule = read_pick_rule("", candidates[0].names, problem.driven());
-  const std::vector<Extent> extent = extents(candidates);
-  const MemberWorth all = member_worth(problem, designs, rule, extent);
-  const std::size_t by_fit = pick_design("", candidates);
+  std::vector<MemberWorth> by_objective;
+  for (std::size_t k = 0; k < candidates[0].names.size(); ++k)
+    by_objective.push_back(member_worth(problem, designs, {PickRule::Kind::Objective, k}, {}));
+  const std::vector<ObjectiveRange> ranges = ranges_over_belief(candidates, by_objective);
+  const MemberWorth all = member_worth(problem, designs, rule, ranges);
+  const std::size_t by_fit = pick_design("", candidates, ranges);
   constexpr std::size_t kBins = 4;
   Sums sums;
   sums.said = sums.so = sums.scatter = std::vector<double>(kBins, 0);
@@ -201,11 +204,11 @@ int planted_truths(const std::string& file, const std::string& front, std::size_
                truth.regret(by_fit));
   };
   {
-    const Truth truth(problem, designs, rule, extent, {});
+    const Truth truth(problem, designs, rule, ranges, {});
     const std::vector<Prospect> found = prospects(all, problem.belief_risk());
     row(0, "the finger as it is", found, chosen(found, study.risk.limits), truth);
     print_worth(
-        designs.size(), [&](std::size_t i) { return pick_worth(rule, candidates[i], extent); },
+        designs.size(), [&](std::size_t i) { return pick_worth(rule, candidates[i], ranges); },
         truth);
   }
   for (std::size_t k = 0; k < truths; ++k) {
@@ -214,7 +217,7 @@ int planted_truths(const std::string& file, const std::string& front, std::size_
     others.weights[t] = 0;
     const std::vector<Prospect> found = prospects(others, problem.belief_risk());
     const std::size_t choice = chosen(found, study.risk.limits);
-    const Truth truth(problem, designs, rule, extent, t);
+    const Truth truth(problem, designs, rule, ranges, t);
     for (std::size_t i = 0; i < designs.size(); ++i) {
       const std::size_t bin =
           std::min(kBins - 1, static_cast<std::size_t>(kBins * found[i].p_best));

@@ -46,7 +46,25 @@ std::string worth_name(const ResultFiles& f) {
   const PickRule& rule = decision_of(f).rule;
   if (rule.kind == PickRule::Kind::Worst) return "the worst modulation";
   if (rule.kind == PickRule::Kind::Objective) return f.problem.objectives()[rule.index].name;
-  return "the sum of the objectives, each a share of the front's extent";
+  return "the sum of the objectives in units of their ranges over the front";
+}
+
+// What the knee divides each objective by: " (ranges: mean(friction) 3.1 mN, mean(adhesion) 3 mN)".
+std::string ranges_text(const ResultFiles& f) {
+  const Decision& d = decision_of(f);
+  if (d.rule.kind != PickRule::Kind::Knee) return {};
+  std::string out;
+  for (std::size_t k = 0; k < d.ranges.size(); ++k) {
+    const StudyObjective& o = f.problem.objectives()[k];
+    const ShownUnit shown = shown_unit(o.expression);
+    const double width = d.ranges[k].width * shown.scale;
+    out += fmt::format(
+        "{}{} {}", out.empty() ? " (ranges, on average over the members: " : ", ", o.name,
+        stated(bare_number("range of " + o.name + " over the front", width, shown.unit, kOfBelief,
+                           kOfDecision),
+               fmt::format("{:.2g}{}{}", width, shown.unit.empty() ? "" : " ", shown.unit)));
+  }
+  return out + ")";
 }
 
 // A value of it in its unit. more: what stands behind that.
@@ -131,8 +149,8 @@ std::string parameter_text(const ResultFiles& f, const char* word) {
                             in_unit(p.edge, field.unit, 3)));
 }
 
-// Below this share of what the best is worth (of the knee: of the front's extent) two designs are
-// alike: nobody would build the other for it.
+// Below this share of what the best is worth (of the knee: of an objective's range over the front)
+// two designs are alike: nobody would build the other for it.
 constexpr double kAlike = 0.01;
 constexpr double kSure = 0.95;  // p(best) that asks for no measurement
 
@@ -326,12 +344,13 @@ std::string decision_text(const ResultFiles& f) {
   if (!d.made()) return out + fmt::format("By the numbers of the fit alone: {}.\n", d.absent);
   out += fmt::format(
       "Each design of the front at {} members of belief about finger and model (as good as {} "
-      "equal ones), judged in {}. Regret: what is lost on average against the best design at each "
+      "equal ones), judged in {}{}. Regret: what is lost on average against the best design at "
+      "each "
       "member. `best/` has {}.\n\n",
       members_text(f),
       stated(bare_number("effective members of belief", d.effective_members, "", kOfBelief, {}),
              fmt::format("{:.3g}", d.effective_members)),
-      worth_name(f), chosen_how(f));
+      worth_name(f), ranges_text(f), chosen_how(f));
   std::vector<std::string> head{"design", "p(best)", "expected regret"};
   for (const StudyObjective& o : f.problem.objectives()) head.push_back("p(best) in " + o.name);
   const bool limited = !f.study.constraints.empty();
@@ -379,7 +398,9 @@ Json decision_json(const ResultFiles& f) {
   const Decision& d = decision_of(f);
   if (!d.made()) return {{"absent", d.absent}};
   const auto folder = [&](std::size_t i) { return f.result.finalists[i].folder; };
-  Json hypotheses = Json::array(), designs = Json::object();
+  Json hypotheses = Json::array(), designs = Json::object(), ranges = Json::object();
+  for (std::size_t k = 0; k < d.ranges.size(); ++k)
+    ranges[f.problem.objectives()[k].name] = json_number(d.ranges[k].width);
   const auto reversal = [&](const Reversal& r) {
     return Json{{"name", r.name},
                 {"weight", json_number(r.weight)},
@@ -401,6 +422,7 @@ Json decision_json(const ResultFiles& f) {
   Json out{{"absent", ""},
            {"by", f.study.risk.belief},
            {"worth", worth_name(f)},
+           {"ranges", std::move(ranges)},
            {"members", d.members},
            {"effective_members", json_number(d.effective_members)},
            {"best", folder(d.best)},

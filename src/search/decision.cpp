@@ -138,11 +138,11 @@ std::vector<MemberNumber> numbers_of(const Belief& belief, const Scene& scene) {
 }  // namespace
 
 MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDesign>& designs,
-                         const PickRule& rule, const std::vector<Extent>& extents) {
+                         const PickRule& rule, const std::vector<ObjectiveRange>& ranges) {
   MemberWorth out;
   for (const BeliefMember& m : problem.belief()->members) out.weights.push_back(m.weight);
   const auto worth_of = [&](const Score& score) {
-    return score.ok ? pick_worth(rule, pick_candidate(problem, score), extents) : std::nan("");
+    return score.ok ? pick_worth(rule, pick_candidate(problem, score), ranges) : std::nan("");
   };
   const auto skinned = [&](const Score& score, const std::vector<Score>& by_skin) {
     SkinnedWorth of{worth_of(score)};
@@ -178,6 +178,35 @@ PickCandidate pick_candidate(const StudyProblem& problem, const Score& score) {
   for (const StudyObjective& o : problem.objectives()) out.names.push_back(o.name);
   out.objectives = problem.outcome(score).objectives;
   if (problem.driven()) out.worst = score.worst;
+  out.errors = score.errors;
+  return out;
+}
+
+std::vector<ObjectiveRange> ranges_over_belief(const std::vector<PickCandidate>& front,
+                                               const std::vector<MemberWorth>& by_objective) {
+  std::vector<ObjectiveRange> out;
+  for (std::size_t k = 0; k < by_objective.size(); ++k) {
+    const MemberWorth& of = by_objective[k];
+    std::vector<PickCandidate> there;  // in this objective alone
+    for (const PickCandidate& c : front) {
+      there.push_back({{c.names[k]}, {c.objectives[k]}});
+      if (k < c.errors.size()) there.back().errors = {c.errors[k]};
+    }
+    double width = 0, weight = 0;
+    for (std::size_t m = 0; m < of.weights.size(); ++m) {
+      std::vector<PickCandidate> known;
+      for (std::size_t i = 0; i < there.size(); ++i) {
+        if (std::isnan(of.worth[i][m])) continue;
+        known.push_back(there[i]);
+        known.back().objectives = {-of.worth[i][m]};
+      }
+      if (known.empty()) continue;
+      width += of.weights[m] * objective_ranges(known)[0].width;
+      weight += of.weights[m];
+    }
+    out.push_back(objective_ranges(there)[0]);
+    if (weight > 0) out.back().width = width / weight;
+  }
   return out;
 }
 
@@ -293,24 +322,25 @@ Decision decide(const StudyProblem& problem, const std::vector<FinalDesign>& fin
   out.members = belief.members.size();
   out.effective_members = belief.effective_members();
   out.rule = decision_rule(problem, rule);
-  const std::vector<Extent> of_front = extents(candidates);
+  std::vector<MemberWorth> by_objective;
+  for (std::size_t k = 0; k < problem.objectives().size(); ++k)
+    by_objective.push_back(member_worth(problem, front, {PickRule::Kind::Objective, k}, {}));
+  out.ranges = ranges_over_belief(candidates, by_objective);
   for (std::size_t i = 1; i < front.size(); ++i) {
-    if (pick_worth(out.rule, candidates[i], of_front) >
-        pick_worth(out.rule, candidates[out.nominal], of_front))
+    if (pick_worth(out.rule, candidates[i], out.ranges) >
+        pick_worth(out.rule, candidates[out.nominal], out.ranges))
       out.nominal = i;
   }
-  out.worth = member_worth(problem, front, out.rule, of_front);
+  out.worth = member_worth(problem, front, out.rule, out.ranges);
   const MemberWorth& worth = out.worth;
   const double limits = problem.study().risk.limits;
   out.designs = prospects(worth, problem.belief_risk());
   out.best = chosen(out.designs, limits);
   out.settled = settled_skins(worth, problem.belief_risk(), limits);
   out.best_worth = best_worth(worth);
-  for (std::size_t k = 0; k < problem.objectives().size(); ++k) {
+  for (const MemberWorth& of : by_objective) {
     std::vector<double>& p = out.p_best_by.emplace_back();
-    const PickRule by{PickRule::Kind::Objective, k};
-    for (const Prospect& design : prospects(member_worth(problem, front, by, of_front), {}))
-      p.push_back(design.p_best);
+    for (const Prospect& design : prospects(of, {})) p.push_back(design.p_best);
   }
   out.hypotheses = by_group(worth, problem.belief_risk(), limits, hypotheses_of(belief));
   const Scene scene =

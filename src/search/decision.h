@@ -23,6 +23,7 @@ struct Decision {
   // Of the designs of the front, in their order.
   std::vector<Prospect> designs;
   std::vector<std::vector<double>> p_best_by;  // [objective][design]
+  std::vector<ObjectiveRange> ranges;          // of the objectives, for the knee
   std::size_t best = 0;                        // of them
   double best_worth = 0;                       // what the best at each member is worth, on average
   std::size_t nominal = 0;                     // the best by the numbers of the fit
@@ -52,9 +53,14 @@ std::vector<bool> on_front_of_belief(const StudyProblem& problem,
 // number is the usual one. Eq. search.14
 PickRule decision_rule(const StudyProblem& problem, const std::string& rule);
 
-// What designs are worth to a rule at each member; extents: of the front, for the knee.
+// What designs are worth to a rule at each member. ranges: for the knee.
 MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDesign>& designs,
-                         const PickRule& rule, const std::vector<Extent>& extents);
+                         const PickRule& rule, const std::vector<ObjectiveRange>& ranges);
+
+// As objective_ranges, of what designs differ by at the members: the mean over them. by_objective:
+// member_worth of each. Eq. search.14
+std::vector<ObjectiveRange> ranges_over_belief(const std::vector<PickCandidate>& front,
+                                               const std::vector<MemberWorth>& by_objective);
 
 // Of the designs of the front, which come first of the finalists. rule: of OptimiseOptions::pick.
 Decision decide(const StudyProblem& problem, const std::vector<FinalDesign>& finalists,

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/constants.h"
 #include "base/error.h"
 
 namespace papilla::search {
@@ -31,20 +33,24 @@ PickRule read_pick_rule(const std::string& rule, const std::vector<std::string>&
                   rule, names));
 }
 
-std::vector<Extent> extents(const std::vector<PickCandidate>& front) {
-  std::vector<Extent> out;
+// Eq. search.14
+std::vector<ObjectiveRange> objective_ranges(const std::vector<PickCandidate>& front) {
+  std::vector<ObjectiveRange> out;
   for (std::size_t k = 0; k < front.front().objectives.size(); ++k) {
-    Extent& e = out.emplace_back(Extent{front[0].objectives[k], front[0].objectives[k]});
+    double low = front[0].objectives[k], high = low, squares = 0;
     for (const PickCandidate& c : front) {
-      e.low = std::min(e.low, c.objectives[k]);
-      e.high = std::max(e.high, c.objectives[k]);
+      low = std::min(low, c.objectives[k]);
+      high = std::max(high, c.objectives[k]);
+      if (k < c.errors.size() && std::isfinite(c.errors[k])) squares += square(c.errors[k]);
     }
+    const double error = std::sqrt(squares / static_cast<double>(front.size()));
+    out.push_back({low, std::hypot(high - low, error)});
   }
   return out;
 }
 
 double pick_worth(const PickRule& rule, const PickCandidate& design,
-                  const std::vector<Extent>& extents) {
+                  const std::vector<ObjectiveRange>& ranges) {
   switch (rule.kind) {
     case PickRule::Kind::Worst:
       return design.worst.value_or(0);
@@ -55,14 +61,14 @@ double pick_worth(const PickRule& rule, const PickCandidate& design,
       break;
   }
   double sum = 0;
-  for (std::size_t k = 0; k < extents.size(); ++k) {
-    const auto [low, high] = extents[k];
-    if (high > low) sum += (design.objectives.at(k) - low) / (high - low);
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    if (ranges[k].width > 0) sum += (design.objectives.at(k) - ranges[k].low) / ranges[k].width;
   }
   return -sum;
 }
 
-std::size_t pick_design(const std::string& text, const std::vector<PickCandidate>& front) {
+std::size_t pick_design(const std::string& text, const std::vector<PickCandidate>& front,
+                        std::vector<ObjectiveRange> ranges) {
   if (front.empty()) throw InputError("--pick: the front has no design");
   const PickRule rule = read_pick_rule(text, front[0].names, front[0].worst.has_value());
   if (rule.kind == PickRule::Kind::Number) {
@@ -70,13 +76,31 @@ std::size_t pick_design(const std::string& text, const std::vector<PickCandidate
     throw InputError(
         fmt::format("--pick {}: the front has the designs 1 to {}", text, front.size()));
   }
-  const std::vector<Extent> of = extents(front);
+  if (ranges.empty()) ranges = objective_ranges(front);
   std::size_t best = 0;
   for (std::size_t i = 1; i < front.size(); ++i) {
-    if (pick_worth(rule, front[i], of) > pick_worth(rule, front[best], of)) best = i;
+    if (pick_worth(rule, front[i], ranges) > pick_worth(rule, front[best], ranges)) best = i;
   }
   return best;
 }
+
+namespace {
+
+// Of the knee of a run that decided over belief; empty: it did not, or did not say them.
+std::vector<ObjectiveRange> decided_ranges(const Folder& results,
+                                           const std::vector<std::string>& objectives) {
+  std::vector<ObjectiveRange> out;
+  if (!results.has("run.json")) return out;
+  const auto run = nlohmann::json::parse(results.read("run.json"));
+  const auto ranges = run.value("/decision/ranges"_json_pointer, nlohmann::json::object());
+  for (const std::string& name : objectives) {
+    if (!ranges.contains(name)) return {};
+    out.push_back({0, ranges.at(name).get<double>()});
+  }
+  return out;
+}
+
+}  // namespace
 
 std::string picked_design(const Folder& results, const std::string& rule) {
   if (rule.empty()) {
@@ -88,6 +112,8 @@ std::string picked_design(const Folder& results, const std::string& rule) {
   }
   std::vector<PickCandidate> front;
   std::vector<std::string> folders;
+  std::vector<ObjectiveRange> ranges;
+  const char* reading = "metrics.json";
   try {
     for (int i = 1;; ++i) {
       const std::string folder = fmt::format("front/{:02d}", i);
@@ -98,20 +124,24 @@ std::string picked_design(const Folder& results, const std::string& rule) {
         c.names.push_back(name);
         const double v = value.at("value").get<double>();
         c.objectives.push_back(value.at("maximise").get<bool>() ? -v : v);
+        const auto error = value.find("se");
+        c.errors.push_back(error != value.end() && error->is_number() ? error->get<double>() : 0);
       }
       if (const auto& worst = metrics.at("worst_modulation"); !worst.is_null())
         c.worst = worst.get<double>();
       front.push_back(std::move(c));
       folders.push_back(folder);
     }
+    reading = "run.json";
+    if (!front.empty()) ranges = decided_ranges(results, front[0].names);
   } catch (const nlohmann::json::exception& e) {
-    throw InputError(fmt::format("{}: metrics.json is damaged: {}", results.path(), e.what()));
+    throw InputError(fmt::format("{}: {} is damaged: {}", results.path(), reading, e.what()));
   }
   if (front.empty()) {
     throw InputError(results.path() +
                      " has no front/: not the folder of a finished `papilla optimize`");
   }
-  return folders[pick_design(rule, front)];
+  return folders[pick_design(rule, front, ranges)];
 }
 
 std::string picked_design_file(const std::string& results, const std::string& rule) {

@@ -14,13 +14,14 @@ struct PickCandidate {
   std::vector<std::string> names;  // of the objectives: "mean(modulation)"
   std::vector<double> objectives;  // minimised
   std::optional<double> worst{};   // lowest modulation over fingers and humidity; none: undriven
+  std::vector<double> errors{};    // one standard error of each objective; empty: not known
 };
 
 // What makes a design of a front the best.
 struct PickRule {
   enum class Kind {
     Worst,      // the highest worst modulation
-    Knee,       // the least sum of the objectives, each scaled to the front's extent
+    Knee,       // the least sum of the objectives, each divided by its range over the front
     Objective,  // the best of one
     Number,     // the user's own choice
   };
@@ -32,21 +33,24 @@ struct PickRule {
 PickRule read_pick_rule(const std::string& rule, const std::vector<std::string>& objectives,
                         bool driven);
 
-// Of an objective, over the designs of a front.
-struct Extent {
-  double low = 0, high = 0;
+// Of an objective over the designs of a front: the least value, and what its values are divided by.
+struct ObjectiveRange {
+  double low = 0, width = 0;  // width 0: all are alike, and it does not count
 };
-std::vector<Extent> extents(const std::vector<PickCandidate>& front);
-// What a design is worth to a rule: the highest is picked. extents: of the front, for the knee; not
-// of a number. Eq. search.14
+// One per objective. What the values span and their standard error, in quadrature: where designs
+// differ by less than is known of them, the difference counts for little. Eq. search.14
+std::vector<ObjectiveRange> objective_ranges(const std::vector<PickCandidate>& front);
+// What a design is worth to a rule: the highest is picked. ranges: for the knee. Not of a number.
 double pick_worth(const PickRule& rule, const PickCandidate& design,
-                  const std::vector<Extent>& extents);
+                  const std::vector<ObjectiveRange>& ranges);
 
 // Index of the design of a front (in the order of its folders) by a rule; the first among equals.
-std::size_t pick_design(const std::string& rule, const std::vector<PickCandidate>& front);
+// ranges: for the knee; empty: those of the front.
+std::size_t pick_design(const std::string& rule, const std::vector<PickCandidate>& front,
+                        std::vector<ObjectiveRange> ranges = {});
 
 // The folder of the design picked from a folder that `papilla optimize` wrote: "best" for an empty
-// rule, else "front/03". Throws InputError.
+// rule, else "front/03"; the knee with the ranges that the run decided with. Throws InputError.
 std::string picked_design(const Folder& results, const std::string& rule);
 // Its design.toml.
 std::string picked_design_file(const std::string& results, const std::string& rule);

@@ -156,6 +156,39 @@ TEST(Decision, AFrontOverBeliefHasWhatAMemberMayPrefer) {
   EXPECT_EQ(on_front(), (std::vector<bool>{true, false}));
 }
 
+// By the fit all designs have the same variation, members tell them apart by .4 and .2 a unit of
+// depth: the knee weighs it by what they say, and no regret is more than both objectives.
+TEST(Decision, TheKneeDividesByWhatDesignsDifferByOverBelief) {
+  const TaskFormula formula = [](const TaskRequest& r) {
+    TaskAnswer out = overturning(r);
+    const double depth = r.flat ? 0 : r.unit[0];
+    const auto varies = [](TaskAnswer& a, double by) {
+      TaskObjective& variation = a.objectives[1];
+      variation = {0.5 + by, 0, {0.5 + by, 0.5 + by}};
+    };
+    if (r.stage != Stage::Belief) varies(out, 0);
+    for (std::size_t m = 0; m < out.members.size(); ++m)
+      varies(out.members[m], m == 3 ? 0 : (m == 2 ? 0.2 : 0.4) * depth);
+    return out;
+  };
+  BelievingRun a(believing(0.3), "decision_knee", formula);
+  const Decision d = decide(a.run.problem, a.run.result.finalists, "knee");
+  ASSERT_TRUE(d.made()) << d.absent;
+  double least = 1, most = 0;
+  for (std::size_t i = 0; i < d.designs.size(); ++i) {
+    least = std::min(least, a.run.result.finalists[i].unit[0]);
+    most = std::max(most, a.run.result.finalists[i].unit[0]);
+  }
+  ASSERT_GT(most, least);
+  EXPECT_NEAR(d.ranges[1].width, (0.7 * 0.4 + 0.3 * 0.2) * (most - least), 1e-9);
+  for (const Prospect& p : d.designs) EXPECT_LT(p.regret, 2);
+  a.run.result.decision = d;
+  EXPECT_NE(report::as_read(report::decision_text(a.files())).find("variation(modulation) 0."),
+            std::string::npos);
+  EXPECT_NEAR(report::decision_json(a.files())["ranges"]["variation(modulation)"].get<double>(),
+              d.ranges[1].width, 1e-12);
+}
+
 TEST(Decision, AHypothesisOfEnoughWeightOverturnsTheNumbersOfTheFit) {
   const BelievingRun a(0.8, "decision_overturned");
   const Decision& d = a.decision();

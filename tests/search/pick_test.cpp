@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "base/error.h"
 
 namespace papilla::tests::pick_test {
@@ -23,6 +26,23 @@ TEST(Pick, EachRuleHasItsDesign) {
   EXPECT_EQ(pick_design("mean", kFront), 0u);
   EXPECT_EQ(pick_design("variation", kFront), 3u);
   EXPECT_EQ(pick_design("4", kFront), 3u);
+}
+
+// The second objective tells these apart by .01, known to 1: the first decides.
+TEST(Pick, TheKneeDoesNotWeighWhatIsWithinTheError) {
+  std::vector<PickCandidate> front{
+      {kNames, {1.0, 0.000}}, {kNames, {0.5, 0.001}}, {kNames, {0.0, 0.010}}};
+  EXPECT_EQ(pick_design("knee", front), 1u);
+  for (PickCandidate& c : front) c.errors = {0.3, 1};
+  EXPECT_EQ(pick_design("knee", front), 2u);
+  const std::vector<ObjectiveRange> ranges = objective_ranges(front);
+  EXPECT_EQ(ranges[0].low, 0);
+  EXPECT_NEAR(ranges[0].width, std::hypot(1, 0.3), 1e-12);
+  EXPECT_NEAR(ranges[1].width, std::hypot(0.01, 1), 1e-12);
+  // Ranges that belief has decided with go before those of the front.
+  EXPECT_EQ(pick_design("knee", front, {{0, 1}, {0, 0.01}}), 1u);
+  front[0].errors[1] = std::numeric_limits<double>::infinity();  // not known
+  EXPECT_NEAR(objective_ranges(front)[1].width, std::hypot(0.01, std::sqrt(2.0 / 3)), 1e-12);
 }
 
 TEST(Pick, OneDesignIsEveryRulesDesign) {

@@ -356,6 +356,14 @@ TEST(Pick, AFolderIsReadAsItsFront) {
   EXPECT_EQ(picked("up"), "/front/01/design.toml");
   EXPECT_EQ(picked("down"), "/front/03/design.toml");
   EXPECT_EQ(picked("1"), "/front/01/design.toml");
+  // By what belief leaves open "down" tells designs apart by far less than it seems.
+  write_bytes(root + "/run.json", "{\"decision\": {\"ranges\": {\"up\": 0.1, \"down\": 9}}}");
+  EXPECT_EQ(picked("knee"), "/front/01/design.toml");
+  write_bytes(root + "/run.json", "{\"decision\": {\"absent\": \"no belief\"}}");
+  EXPECT_EQ(picked("knee"), "/front/02/design.toml");
+  write_bytes(root + "/run.json", "{\"decision\": 1");
+  EXPECT_TRUE(refusal_of([&] { picked("knee"); }).starts_with(root + ": run.json is damaged: "));
+  std::filesystem::remove(root + "/run.json");
   EXPECT_EQ(refusal_of([&] { picked("4"); }), "--pick 4: the front has the designs 1 to 3");
   EXPECT_EQ(refusal_of([&] { picked("left"); }),
             "--pick: \"left\" is no rule; use \"worst\", \"knee\", \"up\", \"down\" or the number "
