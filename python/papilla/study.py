@@ -203,7 +203,7 @@ class Run:
                 known = found.confirmed.ok
                 row[objective.name] = found.confirmed.values[i] if known else float("nan")
                 row[objective.name + "_error"] = found.confirmed.errors[i] if known else float("nan")
-            rows.append({**row, "on_front": bool(found.folder), "ok": found.confirmed.ok, "folder": found.folder})
+            rows.append({**row, "on_front": found.folder.startswith("front/"), "ok": found.confirmed.ok, "folder": found.folder})
         frame = pandas.DataFrame(rows)
         frame.attrs["units"] = {variable.path: variable.unit for variable in self.study.variables}
         return frame
@@ -211,7 +211,7 @@ class Run:
     @property
     def front(self) -> list[FoundDesign]:
         """The finalists that no other beats."""
-        return [found for found in self.finalists if found.folder]
+        return [found for found in self.finalists if found.folder.startswith("front/")]
 
     @property
     def best(self) -> FoundDesign:

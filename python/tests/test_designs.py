@@ -72,6 +72,7 @@ def test_an_array_comes_back_to_the_last_bit(n: int) -> None:
     assert h.z.dtype == np.float64 and h.dx * n == pytest.approx(6.3e-6, rel=1e-15)
     again = pickle.loads(pickle.dumps(d))
     assert np.array_equal(again.heights(n).z, z - z.max()) and again == d
+    assert d.with_({"finger.state": "natural"}) != d, "more than numbers makes a design"
 
 
 @pytest.mark.parametrize("process", ["conformal", "directional", "planar"])

@@ -83,10 +83,8 @@ class FrictionReader {
     d.load = needed(row.load, "load");
     d.amplitude = row.on ? needed(row.voltage, "voltage") : row.voltage.value_or(0);
     d.frequency = d.amplitude > 0 ? needed(row.frequency, "frequency") : row.frequency.value_or(0);
-    if (!row.off) {
-      problem(row.line, "F_off",
-              "a row under voltage needs the friction without it too, of the same touch");
-    } else {
+    d.state = row.state;
+    if (row.off) {
       d.off = *row.off;
       d.off_sd = needed(row.off_sd, "F_off_sd");
     }
@@ -115,10 +113,6 @@ class FrictionReader {
       problem(row.line, "finger",
               fmt::format("\"{}\", and \"{}\" in line {}: a fit is of one finger, so a table each",
                           row.finger, first_->finger, first_->line));
-    if (row.state != first_->state)
-      problem(row.line, "state",
-              fmt::format("another than in line {}: a fit is of one state, so a table each",
-                          first_->line));
   }
 
   std::string path_;

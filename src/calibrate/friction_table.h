@@ -1,10 +1,12 @@
 // The user's table of measured friction.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/rooms.h"
+#include "scene/finger.h"
 
 namespace papilla::calibrate {
 
@@ -12,8 +14,9 @@ namespace papilla::calibrate {
 struct FrictionDatum {
   std::string design;                                                    // file
   double relative_humidity = 0, amplitude = 0, frequency = 0, load = 0;  // SI
-  double off = 0, off_sd = 0, on = 0, on_sd = 0;                         // [N]; on_sd 0: not driven
+  double off = 0, off_sd = 0, on = 0, on_sd = 0;  // [N]; a deviation of 0: not measured
   int line = 0;
+  std::optional<FingerState> state{};  // none: that of the design
 };
 struct FrictionTable {
   std::vector<FrictionDatum> rows;
@@ -21,9 +24,9 @@ struct FrictionTable {
 };
 
 // A table as `scene/measured_table.h` reads it, with what a fit needs of each row: a design beside
-// the table or among the shipped ones, load, humidity, friction with its standard deviation; under
-// a voltage its frequency too, and the friction of the same touch without it. Rows of other fingers
-// or states than the first are refused: a fit is of one. Throws InputError with every mistake.
+// the table or among the shipped ones, load, humidity, a friction with its standard deviation;
+// under a voltage its frequency too. Rows of other fingers than the first are refused: a fit is of
+// one, which has numbers of its own for each state. Throws InputError with every mistake.
 FrictionTable read_friction(const std::string& path);
 
 }  // namespace papilla::calibrate

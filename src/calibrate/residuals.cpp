@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -78,14 +79,16 @@ Residuals::Residuals(const Calibration& calibration, int threads, const std::str
 }
 
 void Residuals::add_rows(const FrictionDatum& d) {
+  const std::string state =
+      d.state ? ", " + finger_state_names()[static_cast<std::size_t>(*d.state)] : "";
   const auto add = [&](const char* name, double value, double sd) {
     rows_.push_back({fmt::format("line {}", d.line),
-                     fmt::format("{} of {} at {} N, {:.0f} % RH, {} V, mN", name,
+                     fmt::format("{} of {} at {} N, {:.0f} % RH, {} V{}, mN", name,
                                  std::filesystem::path(d.design).stem().string(), d.load,
-                                 100 * d.relative_humidity, d.amplitude),
+                                 100 * d.relative_humidity, d.amplitude, state),
                      value * 1e3, value * 1e3, sd * 1e3, 0, 0, 0});
   };
-  add("F_off", d.off, d.off_sd);
+  if (d.off_sd > 0) add("F_off", d.off, d.off_sd);
   if (d.on_sd > 0) add("F_on", d.on, d.on_sd);
 }
 
@@ -109,7 +112,7 @@ std::vector<Estimate> Residuals::model(const Calibration& from, std::span<const 
       const double by = 1e3 * std::exp(log_factor);
       out.push_back({by * force.value, by * force.se});
     };
-    add(friction[i].off, factor[i].off);
+    if (calibration_.data[i].off_sd > 0) add(friction[i].off, factor[i].off);
     if (calibration_.data[i].on_sd > 0) add(friction[i].on, factor[i].on);
   }
   return out;
@@ -164,7 +167,7 @@ double Residuals::correct(const Calibration& from, std::span<const double> value
     const auto look = [&](double old, double now, const Estimate& force, double sd) {
       largest = std::max(largest, std::abs(std::exp(now) - std::exp(old)) * force.value / sd);
     };
-    look(before[i].off, factors_[i].off, fast[i].off, d.off_sd);
+    if (d.off_sd > 0) look(before[i].off, factors_[i].off, fast[i].off, d.off_sd);
     if (d.on_sd > 0) look(before[i].on, factors_[i].on, fast[i].on, d.on_sd);
   }
   return largest;
@@ -200,7 +203,7 @@ std::vector<std::string> Residuals::sources() const {
   for (const PublishedTarget& t : targets_) out.push_back(t.claim);
   for (const FrictionDatum& d : calibration_.data) {
     const std::string design = std::filesystem::path(d.design).stem().string();
-    out.push_back(design);
+    if (d.off_sd > 0) out.push_back(design);
     if (d.on_sd > 0) out.push_back(design);
   }
   return out;
@@ -279,10 +282,11 @@ std::vector<Residuals::Friction> Residuals::evaluated(const Finger& finger,
 }
 
 void Residuals::group_data() {
-  std::map<std::tuple<std::string, double, double, double>, std::vector<std::size_t>> same;
+  using Key = std::tuple<std::string, double, double, double, std::optional<FingerState>>;
+  std::map<Key, std::vector<std::size_t>> same;
   for (std::size_t i = 0; i < calibration_.data.size(); ++i) {
     const FrictionDatum& d = calibration_.data[i];
-    same[{d.design, d.amplitude, d.frequency, d.load}].push_back(i);
+    same[{d.design, d.amplitude, d.frequency, d.load, d.state}].push_back(i);
   }
   for (const auto& [key, rows] : same) {
     const FrictionDatum& d = calibration_.data[rows.front()];
@@ -290,6 +294,7 @@ void Residuals::group_data() {
     s.design.drive.amplitude = d.amplitude;
     if (d.frequency > 0) s.design.drive.frequency = d.frequency;
     s.design.finger.load = d.load;
+    if (d.state) s.design.finger.state = *d.state;
     std::set<double> humidities;
     for (std::size_t i : rows) humidities.insert(calibration_.data[i].relative_humidity);
     s.design.environment.relative_humidity.assign(humidities.begin(), humidities.end());

@@ -25,7 +25,7 @@ struct FitRow {
   double before = 0, after = 0;      // the model
 };
 
-// Rows of one design, drive and load: one evaluation over their humidities.
+// Rows of one design, drive, load and state: one evaluation over their humidities.
 struct MeasuredGroup {
   Design design;
   std::vector<std::size_t> rows;         // into the data

@@ -83,9 +83,7 @@ std::string study_text(const Study& study) {
   if (study.search.time > 0)
     out += fmt::format("search.time ends it after {}: what follows the search shrinks first\n",
                        duration(study.search.time));
-  for (const std::string& path : study.fallen_away)
-    out +=
-        "warning: " + path + " of the base is left out: this kind of texture has no such number\n";
+  for (const std::string& said : unused_of(study)) out += "warning: " + said + "\n";
   return out;
 }
 

@@ -107,7 +107,7 @@ nlohmann::ordered_json result_json(const OptimiseResult& r, const StudyProblem& 
                                          {"se", s.errors[k]},
                                          {"parameters", parameters ? Json(*parameters) : Json()}};
     }
-    j["worst_modulation"] = problem.driven() ? Json(s.worst) : Json(nullptr);
+    j["worst_modulation"] = s.ok && problem.driven() ? Json(s.worst) : Json(nullptr);
     return j;
   };
   out["designs"] = Json::array();
@@ -208,9 +208,7 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     throw InputError("--finish goes on with a run that was interrupted: add --resume");
   Study study = read_study(options.study, all_overrides(options));
   say_scans({study.design});
-  for (const std::string& path : study.fallen_away)
-    context.note("warning: " + path +
-                 " of the base is left out: this kind of texture has no such number");
+  for (const std::string& said : unused_of(study)) context.note("warning: " + said);
   if (options.jobs > 0) study.search.jobs = options.jobs;  // decides nothing
 
   OptimiseOptions run;

@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/scan_options.h"
+#include "design/design.h"
 #include "geometry/io/files.h"
 
 namespace papilla::cli {
@@ -31,7 +32,7 @@ int show_together(const Context& context, const SurfaceCommand& command, double 
   for (const std::string& file : command.files) {
     mistakes.of([&] {
       ScanSource source = command.scan.source();
-      source.file = file;
+      source.file = own_or_shipped(file);
       maps.push_back(view_of(source, tip));
     });
   }
@@ -52,7 +53,7 @@ int show(const Context& context, const SurfaceCommand& command) {
     throw InputError("--out: expected a name that ends with .gsf or .npy, got " + command.out);
   if (command.files.size() > 1) return show_together(context, command, tip);
   ScanSource source = command.scan.source();
-  source.file = command.files.front();
+  source.file = own_or_shipped(command.files.front());
   const SurfaceView view = view_of(source, tip);
   if (command.out.ends_with(".gsf")) write_gsf(command.out, view.scan.map, {});
   if (command.out.ends_with(".npy")) write_npy(command.out, view.scan.map);

@@ -142,7 +142,8 @@ fs::path canonical(const fs::path& path) {
 struct BaseFiles {
   std::vector<fs::path> homes;  // folders of the first file and of those that overrides name
   std::vector<std::string> roots;
-  std::vector<fs::path> open;  // chain of files being merged
+  std::vector<fs::path> open;      // chain of files being merged
+  std::vector<std::string> heads;  // the first file and the bases of its head, as they are named
 
   bool allowed(const fs::path& file) const {
     if (std::any_of(homes.begin(), homes.end(),
@@ -153,22 +154,22 @@ struct BaseFiles {
   }
 
   // Resolves the `base` of a table and of the tables within, nearest first: what a section's own
-  // base says stands above what the file's base says of that section.
-  void resolve(Node& table) {
+  // base says stands above what the file's base says of that section. head: the table is a file's.
+  void resolve(Node& table, bool head) {
     for (Node& child : table.children) {
-      if (child.is_table()) resolve(child);
+      if (child.is_table()) resolve(child, false);
     }
     if (const Node* base = table.find("base"); base && base->is_text()) {
       const Node value = *base;
       std::erase_if(table.children, [](const Node& child) { return child.key == "base"; });
-      merge_below(table, read(value));
+      merge_below(table, read(value, head));
     } else if (base) {
       throw InputError({Problem{base->place.file, base->place.line, base->place.column, "base",
                                 "expected the name of a file, got " + describe(*base)}});
     }
   }
 
-  Node read(const Node& name) {
+  Node read(const Node& name, bool head) {
     const auto refuse = [&](const std::string& message) {
       throw InputError(
           {Problem{name.place.file, name.place.line, name.place.column, "base", message}});
@@ -196,8 +197,9 @@ struct BaseFiles {
       std::erase_if(table.children,
                     [](const Node& child) { return child.key == "schema_version"; });
     }
+    if (head) heads.push_back(found);
     open.push_back(file);
-    resolve(table);
+    resolve(table, head);
     open.pop_back();
     return table;
   }
@@ -305,7 +307,7 @@ Node with_overrides_and_bases(Node root, const std::vector<std::string>& overrid
       change.value.place.file = root.place.file;
     apply(root, change);
   }
-  if (bases) bases->resolve(root);
+  if (bases) bases->resolve(root, true);
   // Kinds first: they clear the keys of the kind before.
   std::stable_partition(changes.begin(), changes.end(),
                         [](const Override& change) { return change.path.ends_with("type"); });
@@ -358,6 +360,7 @@ struct Document::State final : public FieldVisitor {
   std::vector<Frame> stack;
   std::vector<const Node*> lists;
   std::vector<std::string> roots;  // where files are looked for that are not beside
+  std::vector<std::string> heads;
   std::function<std::string(const std::string&, const std::string&)> hint;
 
   const Frame& frame() const { return stack.back(); }
@@ -701,9 +704,11 @@ struct Document::State final : public FieldVisitor {
   }
 };
 
-Document::Document(Node root, std::vector<std::string> roots) : state_(std::make_unique<State>()) {
+Document::Document(Node root, std::vector<std::string> roots, std::vector<std::string> heads)
+    : state_(std::make_unique<State>()) {
   state_->root = std::move(root);
   state_->roots = std::move(roots);
+  state_->heads = std::move(heads);
   state_->visited[""] = &state_->root;
 }
 
@@ -743,6 +748,15 @@ void Document::problem_at(const std::string& path, const std::string& message) {
 }
 
 const Origins& Document::origins() const { return state_->origins; }
+
+bool Document::own(const std::string& path) const {
+  const auto found = state_->origins.find(path);
+  if (found == state_->origins.end()) return false;
+  const std::vector<std::string>& heads = state_->heads;
+  return found->second.line == 0 ||
+         std::find(heads.begin(), heads.end(), found->second.file) != heads.end();
+}
+
 const std::vector<Problem>& Document::problems() const { return state_->problems; }
 
 FieldVisitor& Document::open(const std::string& path) {
@@ -762,17 +776,18 @@ Document load_document(const std::string& path, const std::vector<std::string>& 
                        const std::vector<std::string>& search_roots) {
   const fs::path file = canonical(path);
   Node root = parse_file_text(read_text(path), path);
-  BaseFiles bases{{file.parent_path()}, search_roots, {file}};
-  return Document(with_overrides_and_bases(std::move(root), overrides, &bases), search_roots);
+  BaseFiles bases{{file.parent_path()}, search_roots, {file}, {path}};
+  root = with_overrides_and_bases(std::move(root), overrides, &bases);
+  return Document(std::move(root), search_roots, bases.heads);
 }
 
 Document parse_document(const std::string& text, const std::string& file,
                         const std::vector<std::string>& overrides,
                         const std::vector<std::string>& search_roots) {
-  BaseFiles bases{{fs::current_path()}, search_roots, {}};
-  return Document(with_overrides_and_bases(parse_file_text(text, file), overrides,
-                                           search_roots.empty() ? nullptr : &bases),
-                  search_roots);
+  BaseFiles bases{{fs::current_path()}, search_roots, {}, {file}};
+  Node root = with_overrides_and_bases(parse_file_text(text, file), overrides,
+                                       search_roots.empty() ? nullptr : &bases);
+  return Document(std::move(root), search_roots, bases.heads);
 }
 
 void Document::set_hints(

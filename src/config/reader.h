@@ -29,8 +29,9 @@ using Origins = std::map<std::string, Place>;
 class Document {
  public:
   // Throws nothing; see load_document. roots: where files that its values name are looked for that
-  // are not beside them.
-  explicit Document(Node root, std::vector<std::string> roots = {});
+  // are not beside them. heads: the file and the bases of its head.
+  explicit Document(Node root, std::vector<std::string> roots = {},
+                    std::vector<std::string> heads = {});
   ~Document();
   Document(Document&&) noexcept;
   Document& operator=(Document&&) noexcept;
@@ -47,6 +48,9 @@ class Document {
   void problem_at(const std::string& path, const std::string& message);
 
   const Origins& origins() const;
+  // Whether a value that was read is the document's own, of its file, a base of its head or an
+  // override: not that of a section's base, as a finger's file is one.
+  bool own(const std::string& path) const;
   const std::vector<Problem>& problems() const;
 
   // Visits a struct at `path` ("" = the file's head); see read_section.

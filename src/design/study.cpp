@@ -44,6 +44,23 @@ std::string variable_text(const Variable& variable, double value, bool plain) {
   return significant(shown, 3) + (variable.unit.empty() ? "" : " " + variable.unit);
 }
 
+std::vector<std::string> unused_of(const Study& study) {
+  std::vector<std::string> out;
+  for (const std::string& path : study.fallen_away)
+    out.push_back(path + " of the base is left out: this kind of texture has no such number");
+  constexpr std::size_t kMostTold = 4;
+  const std::size_t told = std::min(kMostTold, study.unheard.size());
+  if (told == 0) return out;
+  std::vector<std::string> keys(study.unheard.begin(),
+                                study.unheard.begin() + static_cast<std::ptrdiff_t>(told));
+  if (study.unheard.size() > told)
+    keys.push_back(fmt::format("{} more", study.unheard.size() - told));
+  out.push_back(join_names(keys) +
+                ": a search does not use what the study says there, as its fingers are those of "
+                "`[population]`; say it in their files");
+  return out;
+}
+
 std::string resolved_toml(const Study& study) {
   Node table = to_table(study.design, &study.origins);
   for (const Node& section : study.study_sections.children) table.set(section.key, section);

@@ -93,6 +93,8 @@ struct Study {
   Search search;
   // Of a base's space and scatter, what goes with its kind of texture: "design_space.texture.rms".
   std::vector<std::string> fallen_away;
+  // What it says of its own [finger] and no finger of the population has: "finger.skin.rms".
+  std::vector<std::string> unheard;
 
   std::string file;     // as given
   std::string name;     // of the results folder: the file's stem, or its folder's for study.toml
@@ -101,6 +103,9 @@ struct Study {
 
   bool is_study() const { return !variables.empty(); }
 };
+
+// What of the study's files a search does not use, a line each.
+std::vector<std::string> unused_of(const Study& study);
 
 // Throws InputError with every mistake.
 Study read_study(const std::string& path, const std::vector<std::string>& overrides = {});

@@ -17,16 +17,70 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Of a touch, which is the study's; all else is each finger's own.
+constexpr std::array<const char*, 4> kTouch{"load", "state", "touch_time", "belief"};
+
+void touch_as(const Finger& other, const std::string& key, Finger& finger) {
+  if (key == "load") finger.load = other.load;
+  if (key == "state") finger.state = other.state;
+  if (key == "touch_time") finger.touch_time = other.touch_time;
+  if (key == "belief") finger.belief = other.belief;
+}
+
+// The keys of [finger] that hold for the whole population: those of a touch that the study itself
+// says, not the file of its finger; a resolved file, which says all, has a list of them.
+std::vector<std::string> shared_touch(StudyFile& file, const Node& section) {
+  std::vector<std::string> out;
+  const Node* list = section.find("shared");
+  if (!list) {
+    for (const char* key : kTouch) {
+      if (file.document.own(fmt::format("finger.{}", key))) out.emplace_back(key);
+    }
+    return out;
+  }
+  for (const Node& item : list->children) {
+    const bool known = std::find(kTouch.begin(), kTouch.end(), item.text) != kTouch.end();
+    if (known) {
+      out.push_back(item.text);
+    } else {
+      file.document.problem(item.place, "population.shared",
+                            "expected one of " + join_names({kTouch.begin(), kTouch.end()}) +
+                                ", got " + describe(item));
+    }
+  }
+  if (!list->is_array())
+    file.document.problem(list->place, "population.shared", "expected a list of keys of [finger]");
+  return out;
+}
+
+// What the study itself says of [finger] beyond the touch: no finger of the population has it.
+std::vector<std::string> unheard_of(const StudyFile& file) {
+  std::vector<std::string> out;
+  const Origins& origins = file.document.origins();
+  for (const auto& [path, place] : origins) {
+    const auto within = origins.lower_bound(path + ".");
+    if (within != origins.end() && within->first.starts_with(path + ".")) continue;  // a section
+    const bool touch = std::any_of(kTouch.begin(), kTouch.end(), [&](const char* key) {
+      return path == fmt::format("finger.{}", key);
+    });
+    if (path.starts_with("finger.") && path != "finger.name" && !touch && file.document.own(path))
+      out.push_back(path);
+  }
+  return out;
+}
+
 void read_population(StudyFile& file) {
   const Node* section = file.section("population");
   if (!section) return;
-  file.only(*section, "population", {"fingers"});
+  file.only(*section, "population", {"fingers", "shared"});
   const Node* list = section->find("fingers");
   if (!list || !list->is_array() || list->children.empty()) {
     file.document.problem(list ? list->place : section->place, "population.fingers",
                           "expected a list of finger files");
     return;
   }
+  const std::vector<std::string> shared = shared_touch(file, *section);
+  if (!section->find("shared")) file.study.unheard = unheard_of(file);
   std::vector<Node> files;  // absolute, for resolved.toml in another folder
   for (const Node& item : list->children) {
     const std::string name =
@@ -42,10 +96,7 @@ void read_population(StudyFile& file) {
     }
     try {
       Finger finger = read_finger(name);
-      // What the study says of the touch itself holds for everyone.
-      if (file.document.origins().count("finger.load")) finger.load = file.study.design.finger.load;
-      if (file.document.origins().count("finger.state"))
-        finger.state = file.study.design.finger.state;
+      for (const std::string& key : shared) touch_as(file.study.design.finger, key, finger);
       file.study.population.push_back(std::move(finger));
       files.push_back(text_node(fs::absolute(name).lexically_normal().string()));
     } catch (const InputError& error) {
@@ -54,7 +105,11 @@ void read_population(StudyFile& file) {
       }
     }
   }
-  file.study.study_sections.find("population")->set("fingers", array_node(std::move(files)));
+  std::vector<Node> keys;
+  for (const std::string& key : shared) keys.push_back(text_node(key));
+  Node& population = *file.study.study_sections.find("population");
+  population.set("fingers", array_node(std::move(files)));
+  population.set("shared", array_node(std::move(keys)));
 }
 
 // What stands in the head of the file, and the mistakes across its fields.

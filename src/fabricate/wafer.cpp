@@ -323,7 +323,8 @@ void check_shape(const WaferShape& shape) {
 }
 
 // A list of its own, where the file has one of its keys; else an empty one over the file.
-WaferList read_list(const std::string& path, const std::vector<std::string>& overrides) {
+WaferList read_list(const std::string& given, const std::vector<std::string>& overrides) {
+  const std::string path = own_or_shipped(given);
   WaferList list;
   const bool folder = std::filesystem::is_directory(path);
   bool own = false;

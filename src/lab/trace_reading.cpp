@@ -28,6 +28,13 @@ constexpr double kUsualLoadBand = 0.2;
 constexpr double kFree = 0.05;
 // A drift that people are told of: a share of the friction.
 constexpr double kToldDrift = 0.02;
+// Of the largest pivot of columns that are of the order of 1: below it they depend on each other.
+constexpr double kIndependent = 1e-9;
+// With the drive on in one direction alone, what it adds and the zero are one column.
+constexpr const char* kNotParted =
+    "its strokes do not part friction from the zero of the force, as where the drive is on in one "
+    "direction alone: record strokes of both directions with the drive on and with it off, or a "
+    "part without touch";
 
 struct Block {
   double force = 0, load = 0, time = 0, humidity = 0;  // means
@@ -170,67 +177,94 @@ class Reader {
     return sum / static_cast<double>(count);
   }
 
-  // Least squares of the blocks: the friction, what the drive adds, its drift, and of both
-  // directions the zero of the sensor and its drift. Eq. lab.13
-  void fit() {
+  // The zero that is taken off where the strokes do not part it from the friction.
+  double zero_without_touch(bool both) {
+    const std::optional<double> free = free_zero();
+    if (!free && both) refuse(kNotParted);
+    const char* why =
+        both ? "the strokes do not part it from friction" : "strokes are in one direction";
+    out_.notes.push_back(
+        free
+            ? fmt::format("the zero of the force, {} mN, is that before and after the touch: {}",
+                          significant(1e3 * *free, 2), why)
+            : fmt::format(
+                  "the zero of the force is taken as it is: {} and no part is without touch", why));
+    return free.value_or(0);
+  }
+
+  // Of each block what multiplies the friction, its drift, with `two` what the drive adds, and with
+  // `zero` the zero of the sensor and its drift. Eq. lab.13
+  Eigen::MatrixXd columns(bool two, bool zero) const {
     const double begin = trace_.time.front(), end = trace_.time.back();
-    bool both = false, driven = false, undriven = false;
-    for (const Block& b : blocks_) {
-      both |= b.direction != blocks_.front().direction;
-      (b.on ? driven : undriven) = true;
-    }
-    double zero = 0;
-    if (!both) {
-      const auto free = free_zero();
-      zero = free.value_or(0);
-      out_.notes.push_back(
-          free ? fmt::format("strokes in one direction: the zero of the force, {} mN, is that "
-                             "before and after the touch",
-                             significant(1e3 * zero, 2))
-               : "strokes in one direction and no sample without touch: the zero of the force "
-                 "is taken as it is");
-    }
-    const bool two = driven && undriven;
-    const Eigen::Index columns = 2 + two + (both ? 2 : 0),
-                       rows = static_cast<Eigen::Index>(blocks_.size());
-    if (rows < columns + 2)
-      refuse(
-          fmt::format("{} of steady sliding: too few for an error, {} are needed; make more "
-                      "strokes",
-                      counted(rows, "block"), columns + 2));
-    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows, columns);
-    Eigen::VectorXd y(rows);
-    for (Eigen::Index i = 0; i < rows; ++i) {
+    const Eigen::Index count = 2 + two + (zero ? 2 : 0);
+    Eigen::MatrixXd a(static_cast<Eigen::Index>(blocks_.size()), count);
+    for (Eigen::Index i = 0; i < a.rows(); ++i) {
       const Block& b = blocks_[static_cast<std::size_t>(i)];
       const double late = (b.time - begin) / (end - begin) - 0.5;
       a(i, 0) = b.direction;
       a(i, 1) = b.direction * late;
       if (two) a(i, 2) = b.on ? b.direction : 0;
-      if (both) {
-        a(i, columns - 2) = 1;
-        a(i, columns - 1) = late;
-      }
-      y(i) = b.force - zero;
+      if (!zero) continue;
+      a(i, count - 2) = 1;
+      a(i, count - 1) = late;
     }
-    const Eigen::MatrixXd inverse =
-        (a.transpose() * a).ldlt().solve(Eigen::MatrixXd::Identity(columns, columns));
-    const Eigen::VectorXd x = inverse * (a.transpose() * y);
-    const double variance = (y - a * x).squaredNorm() / static_cast<double>(rows - columns);
-    const double first = x(0), first_sd = std::sqrt(variance * inverse(0, 0));
+    return a;
+  }
+
+  static Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposed(
+      const Eigen::MatrixXd& a) {
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> out;
+    out.setThreshold(kIndependent);
+    out.compute(a);
+    return out;
+  }
+
+  // Least squares of the blocks. Eq. lab.13
+  void fit() {
+    bool both = false, driven = false, undriven = false;
+    for (const Block& b : blocks_) {
+      both |= b.direction != blocks_.front().direction;
+      (b.on ? driven : undriven) = true;
+    }
+    const bool two = driven && undriven;
+    Eigen::MatrixXd a = columns(two, both);
+    const Eigen::Index rows = a.rows();
+    if (rows < a.cols() + 2)
+      refuse(
+          fmt::format("{} of steady sliding: too few for an error, {} are needed; make more "
+                      "strokes",
+                      counted(rows, "block"), a.cols() + 2));
+    auto solver = decomposed(a);
+    const bool parted = both && solver.rank() == a.cols();
+    const double zero = parted ? 0 : zero_without_touch(both);
+    if (both && !parted) {
+      a = columns(two, false);
+      solver = decomposed(a);
+    }
+    if (solver.rank() < a.cols()) refuse(kNotParted);
+    Eigen::VectorXd y(rows);
+    for (Eigen::Index i = 0; i < rows; ++i)
+      y(i) = blocks_[static_cast<std::size_t>(i)].force - zero;
+    const Eigen::MatrixXd inverse = solver.pseudoInverse();
+    const Eigen::VectorXd x = inverse * y;
+    const double sd = std::sqrt((y - a * x).squaredNorm() / static_cast<double>(rows - a.cols()));
+    if (!std::isfinite(sd))
+      refuse("its tangential force is too large to be one: check its unit in the header");
+    const double first = x(0), first_sd = sd * inverse.row(0).norm();
     if (undriven) {
       out_.off = first;
       out_.off_sd = first_sd;
     }
     if (two) {
       out_.on = x(0) + x(2);
-      out_.on_sd = std::sqrt(variance * (inverse(0, 0) + 2 * inverse(0, 2) + inverse(2, 2)));
+      out_.on_sd = sd * (inverse.row(0) + inverse.row(2)).norm();
     } else if (driven) {
       out_.on = first;
       out_.on_sd = first_sd;
     }
     // The drift is common to both states: of their mean.
     out_.drift = x(1) / (two ? x(0) + x(2) / 2 : first);
-    if (both) out_.zero_drift = x(columns - 1);
+    if (parted) out_.zero_drift = x(a.cols() - 1);
     if (!(first > 0)) refuse("the tangential force has no direction: its mean over strokes is 0");
   }
 

@@ -29,13 +29,21 @@ Row row(const char* name, Better better, Measured PointQuantities::*quantity) {
   return {};
 }
 
-Row look(const char* name, Better better, double Look::*number, const char* doc) {
+// Gloss meters show .1 units (ISO 2813).
+Row look(const char* name, Better better, double Look::*number, const char* doc,
+         double resolution = 0.1) {
   return {LookMetric{number},
-          {.name = name, .unit = "", .doc = doc, .better = better, .appearance = true}};
+          {.name = name,
+           .unit = "",
+           .doc = doc,
+           .better = better,
+           .appearance = true,
+           .resolution = resolution}};
 }
 
+// Haze meters show .1 % (ASTM D1003).
 Row light(const char* name, Better better, double Look::*number, const char* doc) {
-  Row out = look(name, better, number, doc);
+  Row out = look(name, better, number, doc, 0.001);
   out.info.share_of_light = true;
   return out;
 }
@@ -54,7 +62,11 @@ const std::vector<Row>& rows() {
       row("wetted_fraction", Better::Neither, &Q::wetted_fraction),
       row("mean_gap", Better::Neither, &Q::mean_gap),
       {Adhesion{},
-       {"adhesion", "N", "capillary force on the finger, drive off; never below 0", Better::Lower}},
+       {.name = "adhesion",
+        .unit = "N",
+        .doc = "capillary force on the finger, drive off; never below 0",
+        .better = Better::Lower,
+        .resolution = 1e-4}},  // .1 mN: below what force sensors under fingers resolve
       {Compliance{},
        {"compliance", "m/Pa", "indentation since first touch over patch pressure",
         Better::Neither}},
@@ -77,7 +89,7 @@ const std::vector<Row>& rows() {
           "standard deviation over mean of the light of equal subpixels of view.panel (pixel power "
           "deviation)"),
       look("colour_shift", Better::Lower, &Look::colour_shift,
-           "CIE 1976 u'v' distance of the undeviated light from the source"),
+           "CIE 1976 u'v' distance of the undeviated light from the source", 0.001),
       {SourceAmplitude{},
        {"drive.amplitude", "V",
         "amplitude of the source: the design's; under current control what the "

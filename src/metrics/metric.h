@@ -67,6 +67,8 @@ struct MetricInfo {
   bool appearance = false;        // a LookMetric
   bool share_of_light = false;    // people read it in per cent
   bool takes_modulation = false;  // its text has a modulation in brackets
+  double resolution =
+      0;  // values closer than this are one to its instruments, `unit`; 0: not known
 };
 const std::vector<MetricInfo>& metric_list();
 const MetricInfo& info_of(const Metric& metric);

@@ -11,6 +11,7 @@
 #include "report/recommendation.h"
 #include "report/run_numbers.h"
 #include "report/sheet.h"
+#include "report/unstable.h"
 
 namespace papilla::report {
 namespace {
@@ -68,7 +69,9 @@ std::string conditions_text(const ResultFiles& f) {
   double least = kInfinity, most = 0;
   for (std::size_t t = 0; t < f.problem.nominal_tasks(); ++t) {
     const Finger& finger = f.problem.tasks()[t].finger;
-    const std::string state = state_text(finger.state);
+    const std::string state = f.study.design.counterface.in_place()
+                                  ? "the pin \"" + finger.name + "\" in place of a finger"
+                                  : state_text(finger.state);
     if (std::find(states.begin(), states.end(), state) == states.end()) states.push_back(state);
     least = std::min(least, finger.load), most = std::max(most, finger.load);
   }
@@ -105,11 +108,12 @@ std::string checked_worst(const StabilityVariant& v, std::size_t place) {
 std::string skin_text(const ResultFiles& f) {
   const Stability& s = f.result.stability;
   const auto place = checked_place(f);
+  if (f.study.design.counterface.in_place()) return {};
   if (!s.other_skin || *s.other_skin >= s.variants.size() || !place)
-    return "Another state of the skin (natural, not degreased) was not tried on it.";
+    return " Another state of the skin (natural, not degreased) was not tried on it.";
   const StabilityVariant &other = s.variants[*s.other_skin], &own = s.variants.front();
   if (other.values[*place].empty() || own.values[*place].empty())
-    return fmt::format("On {} it has no value.", other.name);
+    return fmt::format(" On {} {}.", other.name, no_value_text(other, *place));
   std::vector<std::string> values;
   for (std::size_t k = 0; k < f.problem.objectives().size(); ++k) {
     const StudyObjective& o = f.problem.objectives()[k];
@@ -121,7 +125,7 @@ std::string skin_text(const ResultFiles& f) {
     values.push_back(fmt::format(
         "a worst modulation of {}{} in place of {}", checked_worst(other, *place),
         other.worst[*place] < kNoticed ? ", which nobody feels," : "", checked_worst(own, *place)));
-  return fmt::format("Finger \"{}\" alone has on {} {}.", f.problem.tasks().front().name,
+  return fmt::format(" Finger \"{}\" alone has on {} {}.", f.problem.tasks().front().name,
                      other.name, join_names(values));
 }
 
@@ -131,12 +135,12 @@ std::string model_text(const ResultFiles& f) {
   const auto place = checked_place(f);
   const std::string out =
       f.problem.has_belief() ? "Choices of the model, each alone" : "In no ±: choices of the model";
-  if (!s.other_skin || !place)
+  if (s.first_choice == 0 || !place)
     return out + " (`papilla explain` names them), which were not tried on it.";
   std::vector<std::string> ranges;
   std::vector<std::vector<double>> values;
-  const std::size_t tried = s.variants.size() - *s.other_skin - 1;
-  for (std::size_t v = *s.other_skin + 1; v < s.variants.size(); ++v) {
+  const std::size_t tried = s.variants.size() - std::min(s.variants.size(), s.first_choice);
+  for (std::size_t v = s.first_choice; v < s.variants.size(); ++v) {
     if (!s.variants[v].values[*place].empty()) values.push_back(s.variants[v].values[*place]);
   }
   for (std::size_t k = 0; k < f.problem.objectives().size() && !values.empty(); ++k) {
@@ -149,12 +153,12 @@ std::string model_text(const ResultFiles& f) {
                     checked_value(o, (*high)[k], "the choice of the model that makes it largest")));
   }
   return fmt::format(
-      "{} ({} of them, on finger \"{}\"; the table \"Does the order hold?\" has each): over these "
+      "{} ({} of them, on {} \"{}\"; the table \"Does the order hold?\" has each): over these "
       "{}.",
       out,
       stated(count_number("choices of the model that were tried", tried, {Stage::Stability}),
              fmt::format("{}", tried)),
-      f.problem.tasks().front().name,
+      f.study.design.counterface.in_place() ? "the pin" : "finger", f.problem.tasks().front().name,
       ranges.empty() ? "it has no value" : "it has " + join_names(ranges));
 }
 
@@ -185,22 +189,44 @@ std::string look_text(const ResultFiles& f) {
                      look.warning.empty() ? "" : " (" + look.warning + ")");
 }
 
-// What the fab lays, takes away and leaves of a film that the texture is cut into.
+// How a film lies on a texture.
+const char* process_text(FilmProcess process) {
+  switch (process) {
+    case FilmProcess::Conformal:
+      return ", grown equally thick on every wall (conformal)";
+    case FilmProcess::Directional:
+      return ", laid from above, thin on steep walls (directional)";
+    case FilmProcess::Planar:
+      return ", on a flat electrode, with the texture cut into it (planar)";
+  }
+  return "";
+}
+
+// What the fab lays, takes away and leaves of a film that the texture is cut into; of others how
+// thick they are.
 std::string film_text(const ResultFiles& f) {
   const Design built = built_design(f);
   const std::optional<Planes> planes = facts(built.texture).relief.planes;
   const std::vector<FilmDielectric>& films = built.surface.dielectric;
-  if (built.surface.process != FilmProcess::Planar || films.size() != 1 || !planes ||
-      !(planes->high > planes->low))
-    return {};
-  const auto said = [](const char* what, double length) {
+  const auto said = [](const char* what, double length, const std::string& of = "") {
     return stated(bare_number(what, 1e9 * length, "nm", kChosen, {Stage::Confirm, Stage::Rounding}),
-                  in_unit(length, "nm", 4));
+                  in_unit(length, "nm", 4) + (of.empty() ? "" : " of " + of));
   };
+  const bool cut = planes && planes->high > planes->low;
+  if (!cut || built.surface.process != FilmProcess::Planar || films.size() != 1) {
+    if (!f.problem.driven() || films.empty()) return {};
+    std::vector<std::string> layers;
+    for (const FilmDielectric& layer : films) {
+      layers.push_back(
+          said("film", layer.thickness, layer.material.empty() ? "a dielectric" : layer.material));
+    }
+    return "Film: " + join_names(layers, " and ") +
+           (cut ? process_text(built.surface.process) : std::string()) + ".";
+  }
   return fmt::format(
-      "Film: {} of {} are laid, {} are taken away where the texture is deep, {} stay there.",
-      said("film as laid", films[0].thickness + planes->high),
-      films[0].material.empty() ? "it" : films[0].material,
+      "Film: {} are laid, {} are taken away where the texture is deep, {} stay there.",
+      said("film as laid", films[0].thickness + planes->high,
+           films[0].material.empty() ? "it" : films[0].material),
       said("film taken away", planes->high - planes->low),
       said("film that stays", films[0].thickness + planes->low));
 }
@@ -270,7 +296,7 @@ std::vector<std::string> grounds(const ResultFiles& f) {
   std::vector<std::string> out;
   if (search::advice_of(f.problem, f.result) == Advice::Texture) out = decision_grounds(f);
   if (std::string film = film_text(f); !film.empty()) out.push_back(std::move(film));
-  out.push_back(conditions_text(f) + " " + skin_text(f));
+  out.push_back(conditions_text(f) + skin_text(f));
   out.push_back(model_text(f));
   for (std::string said : {room_text(f), felt_text(f), look_text(f)}) {
     if (!said.empty()) out.push_back(std::move(said));

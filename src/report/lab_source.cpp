@@ -16,6 +16,7 @@
 #include "claims/claim.h"
 #include "config/reader.h"
 #include "metrics/metrics.h"
+#include "search/records.h"
 
 namespace papilla::report {
 namespace {
@@ -53,7 +54,8 @@ class LabOpener {
       return take_manifest(path + "/manifest.csv");
     if (path.ends_with(".csv")) return take_manifest(path);
     if (folder)
-      throw InputError(path + ": neither a run (run.json), nor a wafer (manifest.csv), nor a lab");
+      throw InputError(path + ": neither a run (run.json), nor a wafer (manifest.csv), nor a lab" +
+                       search::unfinished_hint(Folder(path)));
     if (is_calibration(path)) return take_calibration(path);
     opened_with_.back() =
         file().designs[add(fs::path(path).stem().string(), read_design(path), true)].name;
@@ -183,7 +185,7 @@ class LabOpener {
   }
 
   void set_belief() {
-    std::string path = source_.belief.empty() ? belief_ : source_.belief;
+    std::string path = source_.belief.empty() ? belief_ : own_or_shipped(source_.belief);
     if (path.empty()) path = designs_.front().finger.belief;
     if (path.empty())
       throw InputError(

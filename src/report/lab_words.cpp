@@ -330,18 +330,19 @@ std::string lab_plan_csv(const Lab& lab, const PlanRecord& plan) {
 
 std::string lab_readings_csv(const Lab& lab) {
   std::string out =
-      "design,relative_humidity,amplitude_V,frequency_Hz,load_N,F_off_N,F_off_sd_N,F_on_N,F_on_sd_N"
-      "\n";
+      "design,relative_humidity,amplitude_V,frequency_Hz,load_N,F_off_N,F_off_sd_N,F_on_N,"
+      "F_on_sd_N,finger,state\n";
   const double own = lab.file().instrument.repeatability;
+  const auto cells = [&](double force, double stated) {
+    return force > 0 ? fmt::format("{:.6g},{:.3g}", force, std::hypot(stated, own * force)) : ",";
+  };
   for (const FrictionReading& r : lab.readings()) {
-    if (!(r.off > 0)) continue;
     const Conditions& at = r.experiment.at;
-    const auto sd = [&](double force, double stated) { return std::hypot(stated, own * force); };
-    out += fmt::format("{},{:.4g} %,{:.6g},{:.6g},{:.6g},{:.6g},{:.3g},",
+    out += fmt::format("{},{:.4g} %,{:.6g},{:.6g},{:.6g},{},{},{},{}\n",
                        lab.file().designs[r.experiment.design].file, 100 * at.relative_humidity,
-                       at.voltage, frequency_of(lab, r.experiment), at.load, r.off,
-                       sd(r.off, r.off_sd));
-    out += r.on > 0 ? fmt::format("{:.6g},{:.3g}\n", r.on, sd(r.on, r.on_sd)) : std::string(",\n");
+                       at.voltage, frequency_of(lab, r.experiment), at.load, cells(r.off, r.off_sd),
+                       cells(r.on, r.on_sd), csv_cell(r.finger),
+                       finger_state_names()[static_cast<std::size_t>(at.state)]);
   }
   return out;
 }

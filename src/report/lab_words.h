@@ -28,7 +28,7 @@ std::string lab_state_json(Lab& lab);
 
 // Tables to fill in and to give on.
 std::string lab_plan_csv(const Lab& lab, const PlanRecord& plan);
-// With the columns of `papilla calibrate`; readings without a friction off are left out.
+// All readings with the columns of `papilla calibrate`.
 std::string lab_readings_csv(const Lab& lab);
 
 }  // namespace papilla::report

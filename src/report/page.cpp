@@ -18,6 +18,7 @@
 #include "report/ranking.h"
 #include "report/sums.h"
 #include "search/pick.h"
+#include "search/records.h"
 
 namespace papilla::report {
 
@@ -127,8 +128,9 @@ std::string optimize_page(const Folder& root, const std::string& design) {
   for (const char* name : {"pareto.csv", "history.csv", "plan.txt", "summary.md", "run.json",
                            "best/metrics.json", "best/design.toml", "best/heightmap.gsf"}) {
     if (!root.has(name)) {
-      throw InputError(fmt::format("{} has no {}: not the folder of a finished `papilla optimize`",
-                                   root.path(), name));
+      throw InputError(
+          fmt::format("{} has no {}: not the folder of a finished `papilla optimize`{}",
+                      root.path(), name, search::unfinished_hint(root)));
     }
   }
   Json data = Json::object(), designs = Json::object();

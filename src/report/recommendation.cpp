@@ -291,6 +291,8 @@ std::string shape_text(const Design& design) {
   add(role.period, "from one to the next");
   const double* wall = role.wall_angle;
   std::string out = measures.empty() ? kind : kind + " " + join_names(measures);
+  if (role.lattice)
+    out += *role.lattice == Lattice::Square ? " in a square array" : " in a hexagonal array";
   measures.clear();
   if (wall != nullptr && *wall < kUpright) add(wall, "steep");
   return measures.empty() ? out : out + ", walls " + measures.front();

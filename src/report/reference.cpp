@@ -146,7 +146,10 @@ std::vector<Part> study_reference() {
           "of two of them: [{ between = [\"PATH\", \"PATH\"], value = 0.6 }]; the others are "
           "independent"),
       key("population.fingers",
-          "finger files; load and state of the study's [finger] hold for all"),
+          "finger files; load, state, touch_time and belief hold for all where the study itself "
+          "says them in [finger] (not by the file that [finger] is based on)"),
+      key("population.shared",
+          "which of these hold for all, as a resolved file names them: [\"load\", \"state\"]"),
       key("scenarios",
           "states that count beside each other: name, weight, set = { \"PATH\" = value }"),
   };
@@ -235,7 +238,9 @@ std::vector<Part> calibration_reference() {
       key("data",
           "a table of measured frictions, a CSV with a line a measurement: design (a file), "
           "relative_humidity, amplitude_V, frequency_Hz, load_N, F_off_N, F_off_sd_N, F_on_N, "
-          "F_on_sd_N; forces of the whole finger [N], sd: one standard deviation"),
+          "F_on_sd_N, state (clean, natural, wet; empty: the design's); forces of the whole finger "
+          "[N], "
+          "sd: one standard deviation"),
       key("fit", "published claims that are fitted, e.g. [\"M1\", \"C_gap\"]; this or `data`"),
       key("hold_out", "claims that are judged with the fitted finger alone"),
       key("iterations",

@@ -92,13 +92,13 @@ class Writer {
     return ok && f_.problem.driven() ? fmt::format("{:.6g}", worst) : std::string();
   }
   Json worst_json(const Score& score) const {
-    return f_.problem.driven() ? Json(json_number(score.worst)) : Json(nullptr);
+    return score.ok && f_.problem.driven() ? Json(json_number(score.worst)) : Json(nullptr);
   }
 
   std::string history() const {
     const auto& objectives = f_.problem.objectives();
     std::string out = "evaluation" + variable_header();
-    for (const StudyObjective& o : objectives) out += "," + o.name;
+    for (const StudyObjective& o : objectives) out += "," + csv_text(o.name);
     out += ",worst modulation,feasible,hypervolume,status\n";
     for (std::size_t i = 0; i < f_.history.size(); ++i) {
       const Evaluation& e = f_.history.evaluations[i];
@@ -121,7 +121,7 @@ class Writer {
     const auto& objectives = f_.problem.objectives();
     std::string out = "design" + variable_header();
     for (const StudyObjective& o : objectives)
-      out += fmt::format(",{0},{0} se,{0} model,{0} at search level", o.name);
+      out += fmt::format(",{0},{0} se,{0} model,{0} at search level", csv_text(o.name));
     out += ",worst modulation,breakdown margin";
     for (const Constraint& c : f_.study.constraints) out += ",limit " + csv_text(limit_name(c.on));
     const bool decided = f_.result.decision.made();
@@ -138,8 +138,9 @@ class Writer {
                                           : std::string(",");
       }
       out +=
-          fmt::format(",{},{}", worst_text(true, c.worst),
-                      std::isfinite(c.oxide_margin) ? fmt::format("{:.4g}", c.oxide_margin) : "");
+          fmt::format(",{},{}", worst_text(c.ok, c.worst),
+                      c.ok && std::isfinite(c.oxide_margin) ? fmt::format("{:.4g}", c.oxide_margin)
+                                                            : std::string());
       const std::vector<LimitValue> limits = limit_values(f_.problem, d);
       for (std::size_t i = 0; i < f_.study.constraints.size(); ++i)
         out += "," + (i < limits.size() ? limit_value_text(limits[i].limit, limits[i].value)

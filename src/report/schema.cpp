@@ -261,8 +261,11 @@ Json study_sections() {
   Json scenario = object(
       {{"name", {{"type", "string"}}}, {"weight", quantity("", 0, 1e6)}, {"set", by_path(value)}});
   scenario["required"] = {"name"};
-  Json fingers =
-      object({{"fingers", {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 1}}}});
+  Json fingers = object(
+      {{"fingers", {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 1}}},
+       {"shared",
+        {{"type", "array"},
+         {"items", {{"type", "string"}, {"enum", {"load", "state", "touch_time", "belief"}}}}}}});
   fingers["required"] = {"fingers"};
   return {{"design_space", by_path({{"anyOf", {interval, choice, gapped}}})},
           {"objective", object({{"maximise", metrics},

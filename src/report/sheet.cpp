@@ -118,6 +118,19 @@ Json row_json(const SheetRow& row) {
   return out;
 }
 
+// Lengths that are built and lie on no value of the grid of the fab.
+std::vector<std::string> off_the_grid(const ResultFiles& f) {
+  std::vector<std::string> out;
+  for (const SheetRow& row : sheet_rows(f)) {
+    const auto found = std::find_if(f.study.variables.begin(), f.study.variables.end(),
+                                    [&](const Variable& v) { return v.path == row.path; });
+    if (row.free && found != f.study.variables.end() &&
+        !lies_on_grid(*found, row.build, f.study.search.rounding))
+      out.push_back(row.path);
+  }
+  return out;
+}
+
 // Which grid the numbers are on, and what that did.
 std::string grid_text(const ResultFiles& f) {
   if (!f.result.build || !(f.study.search.rounding > 0)) return {};
@@ -133,6 +146,8 @@ std::string grid_text(const ResultFiles& f) {
       length("least length on the grid of the fab", finer_grid_below(grid)),
       length("grid of the fab", grid));
   if (!build.on_grid) return {};
+  if (const std::vector<std::string> off = off_the_grid(f); !off.empty())
+    out += fmt::format("; the range of {} has no value of it", join_names(off, " and of "));
   if (build.widened) out += "; nearer values of the grid break a limit";
   if (!build.made.confirmed.ok) return out + "; it was not judged again so.";
   if (build.judged > 1)

@@ -328,8 +328,11 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
 }
 
 bool is_shown(const Design& design, const Variable& variable) {
-  return !variable.path.starts_with("texture.") || variable.is_kind() ||
-         facts(design.texture).relief.present;
+  if (!variable.path.starts_with("texture.") || variable.is_kind()) return true;
+  if (variable.is_levels() || !facts(design.texture).relief.present)
+    return facts(design.texture).relief.present;
+  Design own = design;
+  return !path_in(number_fields(own), variable.path).empty();
 }
 
 std::vector<LimitValue> limit_values(const StudyProblem& problem, const FinalDesign& design) {

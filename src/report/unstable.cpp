@@ -14,7 +14,7 @@ namespace {
 
 // Why a design lost its place in one of the checks.
 std::string why_lost(const ResultFiles& f, const StabilityVariant& v, std::size_t place) {
-  if (v.values[place].empty()) return "it has no value";
+  if (v.values[place].empty()) return no_value_text(v, place);
   if (place < v.broken.size() && !v.broken[place].empty())
     return limit_broken(v.broken[place].front());
   if (place < v.beaten_by.size() && v.beaten_by[place])
@@ -23,6 +23,11 @@ std::string why_lost(const ResultFiles& f, const StabilityVariant& v, std::size_
 }
 
 }  // namespace
+
+std::string no_value_text(const StabilityVariant& v, std::size_t place) {
+  const bool known = place < v.unanswered.size() && !v.unanswered[place].empty();
+  return "it has no value" + (known ? " (" + v.unanswered[place] + ")" : std::string());
+}
 
 std::string unstable_text(const ResultFiles& f, std::size_t place) {
   const Stability& s = f.result.stability;

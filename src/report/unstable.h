@@ -12,4 +12,7 @@ namespace papilla::report {
 // ..."; "" where it holds, or was not checked. place: among the finalists.
 std::string unstable_text(const ResultFiles& files, std::size_t place);
 
+// "it has no value (pull-in: no equilibrium ...)": of a design without one in a check.
+std::string no_value_text(const StabilityVariant& variant, std::size_t place);
+
 }  // namespace papilla::report

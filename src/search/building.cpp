@@ -12,14 +12,14 @@ namespace {
 constexpr std::size_t kMostSought = 4000;   // designs of the grid, the nearest ones
 constexpr std::size_t kMostModelled = 100;  // designs of the search, the nearest ones
 
-// The smallest gain over the objectives, each relative to what it was: better in one is not paid
-// with another. Eq. search.21
-double merit(const std::vector<double>& here, const std::vector<double>& before,
-             const std::vector<double>& size) {
+// The smallest gain over the objectives, each over what it may lose: better in one is not paid with
+// another. Eq. search.21
+double merit(const std::vector<StudyObjective>& objectives, const std::vector<double>& here,
+             const std::vector<double>& before) {
   double out = kInfinity;
   for (std::size_t k = 0; k < here.size(); ++k) {
-    const double scale = size[k] != 0 ? std::abs(size[k]) : 1;
-    out = std::min(out, (before[k] - here[k]) / scale);
+    const double scale = tolerated_loss(objectives[k], before[k]);
+    out = std::min(out, (before[k] - here[k]) / (scale > 0 ? scale : 1));
   }
   return out;
 }
@@ -34,6 +34,7 @@ class Neighbourhood {
 
   Neighbourhood(const Run& run, const FinalDesign& centre)
       : search_(run.search),
+        wanted_(run.problem.objectives()),
         centre_(centre.unit),
         confirmed_(run.problem.outcome(centre.confirmed)) {
     std::vector<const Evaluation*> known;
@@ -71,7 +72,7 @@ class Neighbourhood {
     for (std::size_t k = 0; k < objectives_.size(); ++k)
       there.push_back(confirmed_.objectives[k] + step(objectives_[k]));
     Predicted out;
-    out.merit = merit(there, confirmed_.objectives, confirmed_.objectives);
+    out.merit = merit(wanted_, there, confirmed_.objectives);
     for (std::size_t k = 0; k < constraints_.size(); ++k)
       out.violation += std::max(0.0, confirmed_.constraints[k] + step(constraints_[k]));
     return out;
@@ -88,6 +89,7 @@ class Neighbourhood {
   }
 
   const SearchProblem& search_;
+  const std::vector<StudyObjective>& wanted_;
   Point centre_;
   Outcome confirmed_;
   std::vector<GaussianProcess> objectives_, constraints_;
@@ -195,7 +197,8 @@ class Building {
 
   double worth(const FinalDesign& made) const {
     const std::vector<double> before = run_.problem.outcome(recommended_.confirmed).objectives;
-    return merit(run_.problem.outcome(made.confirmed).objectives, before, before);
+    return merit(run_.problem.objectives(), run_.problem.outcome(made.confirmed).objectives,
+                 before);
   }
 
   // At the level of the confirmation; false: there is no time for it.

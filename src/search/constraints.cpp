@@ -98,10 +98,13 @@ std::string StudyConstraints::refusal(const Design& design) const {
 
 double StudyConstraints::film_margin(const Design& design) const {
   if (!goals_.own_amplitude || design.drive.control != DriveControl::Voltage) return kInfinity;
-  double out = bridged_margin(design.surface, design.texture, design.drive, design.drive.amplitude);
+  const auto margin = [](const Design& d) {
+    return bridged_margin(d.surface, d.texture, d.drive, d.drive.amplitude);
+  };
+  if (study_.scenarios.empty()) return margin(design);
+  double out = kInfinity;
   for (const Scenario& scenario : study_.scenarios) {
-    const Design d = with_settings(design, scenario.set);
-    out = std::min(out, bridged_margin(d.surface, d.texture, d.drive, d.drive.amplitude));
+    if (scenario.weight > 0) out = std::min(out, margin(with_settings(design, scenario.set)));
   }
   return out;
 }

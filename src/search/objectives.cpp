@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/check.h"
 #include "base/error.h"
@@ -24,7 +25,7 @@ bool always_driven(const Study& study, const std::vector<StudyTask>& tasks) {
 StudyObjective aimed_at(const Target& target) {
   return {{Summary::Mean, target.metric},
           false,
-          fmt::format("distance({}, {:g})", metric_text(target.metric), target.value),
+          fmt::format("distance({} = {:g})", metric_text(target.metric), target.value),
           true,
           target.value};
 }
@@ -100,6 +101,13 @@ void check_pen(const Study& study, const StudyObjective& o) {
 
 }  // namespace
 
+// Eq. search.9
+double tolerated_loss(const StudyObjective& o, double value) {
+  constexpr double kShare = 0.05;
+  const MetricExpression& e = o.expression;
+  return std::hypot(kShare * value, is_spread(e.summary) ? 0 : info_of(e.metric).resolution);
+}
+
 bool StudyGoals::by_points(std::size_t objective) const {
   const StudyObjective& o = objectives[objective];
   return o.aimed || (risk.kind != Risk::Kind::Mean && o.expression.summary == Summary::Mean);
@@ -150,7 +158,12 @@ StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks) 
         "objective: sparkle needs the subpixels of a panel; give view.panel.subpixel_width and "
         "view.panel.subpixel_height");
   }
-  if (goals.objectives.empty() || goals.objectives.size() > 3) {
+  if (goals.objectives.empty()) {
+    throw InputError(study.file +
+                     ": a design and no study; add [design_space] and [objective] (`papilla "
+                     "describe study`), or judge it alone with `papilla evaluate`");
+  }
+  if (goals.objectives.size() > 3) {
     throw InputError(fmt::format("objective: one to three objectives are possible, got {}",
                                  goals.objectives.size()));
   }

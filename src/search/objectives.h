@@ -20,6 +20,10 @@ struct StudyObjective {
   double target = 0;   // SI
 };
 
+// What it may lose before that counts: 5 % of a value, in the user's sign or minimised, and what
+// its instruments resolve, in quadrature: of a sparkle of nothing 5 % are no loss. Eq. search.9
+double tolerated_loss(const StudyObjective& objective, double value);
+
 struct StudyGoals {
   std::vector<StudyObjective> objectives;
   std::vector<StudyObjective> limited;  // metrics of constraints, in their order

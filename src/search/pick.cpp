@@ -9,6 +9,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "search/records.h"
 
 namespace papilla::search {
 
@@ -106,7 +107,8 @@ std::string picked_design(const Folder& results, const std::string& rule) {
   if (rule.empty()) {
     if (!results.has("best/design.toml")) {
       throw InputError(results.path() +
-                       " has no best/design.toml: not the folder of a finished `papilla optimize`");
+                       " has no best/design.toml: not the folder of a finished `papilla optimize`" +
+                       unfinished_hint(results));
     }
     return "best";
   }
@@ -139,7 +141,8 @@ std::string picked_design(const Folder& results, const std::string& rule) {
   }
   if (front.empty()) {
     throw InputError(results.path() +
-                     " has no front/: not the folder of a finished `papilla optimize`");
+                     " has no front/: not the folder of a finished `papilla optimize`" +
+                     unfinished_hint(results));
   }
   return folders[pick_design(rule, front, ranges)];
 }

@@ -56,6 +56,12 @@ bool possible(const StudyProblem& problem, Stage stage, const TaskAnswer& a) {
 
 }  // namespace
 
+std::string unfinished_hint(const Folder& folder) {
+  if (!folder.has(kJournalName)) return {};
+  return "; its run was interrupted: `papilla optimize STUDY --out " + folder.path() +
+         " --resume` goes on with it, with --finish to the results of what it has";
+}
+
 std::string journal_key(const StudyProblem& problem) { return text_hash(problem.identity()); }
 
 std::optional<TaskRequest> checked_request(const StudyProblem& problem, const SearchProblem& search,

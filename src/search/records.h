@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/folder.h"
 #include "base/rooms.h"
 #include "optim/journal.h"
 #include "search/problem.h"
@@ -13,6 +14,9 @@
 namespace papilla::search {
 
 inline constexpr const char* kJournalName = "journal";
+
+// "; it was interrupted: ...": of a folder whose run has not come to its results; "": no run.
+std::string unfinished_hint(const Folder& folder);
 
 // That the journal of a study begins with.
 std::string journal_key(const StudyProblem& problem);

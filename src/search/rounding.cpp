@@ -72,6 +72,12 @@ double on_grid(const Variable& v, double value, double grid) {
   return values.empty() ? value : values.front();
 }
 
+bool lies_on_grid(const Variable& v, double value, double grid) {
+  if (!rounds(v, value)) return true;
+  const std::vector<double> values = grid_values(v, value, grid);
+  return !values.empty() && std::abs(values.front() - value) <= kLimitTolerance * value;
+}
+
 double finer_grid_below(double grid) { return grid / kMostChange; }
 
 GridDesigns::GridDesigns(const StudyProblem& problem, const Point& around, bool flat)

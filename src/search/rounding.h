@@ -15,6 +15,8 @@ namespace papilla::search {
 // ... of it where that is more than a fiftieth of the length; angles to degrees; the rest to three
 // digits. Within low and high where the grid has such a value.
 double on_grid(const Variable& variable, double value, double grid);
+// Not where the range of the variable has no value of the grid.
+bool lies_on_grid(const Variable& variable, double value, double grid);
 
 // Lengths below this [m] are on a finer grid than the fab's own.
 double finer_grid_below(double grid);

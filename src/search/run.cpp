@@ -30,12 +30,9 @@ constexpr double kPagePatches = 2, kUsualSkins = 16;
 
 // A rule that no front could meet is refused before the search.
 void check_pick_rule(const std::string& rule, const StudyProblem& problem) {
-  if (rule.find_first_not_of("0123456789") == std::string::npos) return;
-  PickCandidate any;
-  for (const StudyObjective& o : problem.objectives()) any.names.push_back(o.name);
-  any.objectives.assign(any.names.size(), 0.0);
-  if (problem.driven()) any.worst = 0;
-  pick_design(rule, {any});
+  std::vector<std::string> names;
+  for (const StudyObjective& o : problem.objectives()) names.push_back(o.name);
+  read_pick_rule(rule, names, problem.driven());
 }
 
 // What can be refused before anything is written.

@@ -33,12 +33,17 @@ double weight_of(const Scoring& s, std::size_t k, std::size_t task, std::size_t 
   return s.tasks[task].weight * (weighted ? s.humidity_weights[number] : 1);
 }
 
+// Over tasks too, whatever the study's risk.
+bool takes_the_worst(const StudyObjective& o) {
+  return !o.aimed && o.expression.summary == Summary::Worst;
+}
+
 // An objective from the numbers of all tasks. residuals: of targets are appended; or null.
 double combined(const Scoring& s, std::size_t k, const Numbers& numbers,
                 std::vector<double>* residuals) {
   const StudyObjective& o = s.goals.objectives[k];
   Risk risk = s.goals.risk;
-  if (!o.aimed && o.expression.summary == Summary::Worst) risk.kind = Risk::Kind::Worst;
+  if (takes_the_worst(o)) risk.kind = Risk::Kind::Worst;
   std::vector<double> values, weights, nominal;
   for (std::size_t t = 0; t < s.nominal; ++t) {
     for (std::size_t i = 0; i < numbers[t].size(); ++i) {
@@ -115,8 +120,9 @@ void add_samples(Score& score, const Scoring& s, const std::vector<TaskAnswer>& 
     for (const auto list : kSampleLists)
       samples.*list = combined_samples(s, k, numbers, score.values[k], list, answers);
     // The tasks state the error of their own summaries, not that of a risk over them.
-    if ((s.goals.by_points(k) || s.goals.risk.kind != Risk::Kind::Mean) &&
-        samples.sampling.size() > 1) {
+    const bool by_risk = s.goals.by_points(k) || s.goals.risk.kind != Risk::Kind::Mean ||
+                         (s.nominal > 1 && takes_the_worst(s.goals.objectives[k]));
+    if (by_risk && samples.sampling.size() > 1) {
       score.errors[k] =
           std::sqrt(square(mean_estimate(samples.sampling).se) + square(grid_error(samples.grid)) +
                     square(method_error(samples.method)));

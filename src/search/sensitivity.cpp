@@ -8,8 +8,9 @@
 namespace papilla::search {
 namespace {
 
-constexpr double kStep = 0.05;           // of a variable's range
-constexpr double kToleratedLoss = 0.05;  // of an objective's value
+constexpr double kStep = 0.05;  // of a variable's range
+// Of a step: where not even this makes a shape, none is tried. Room below it is none to any fab.
+constexpr double kLeastPart = 1.0 / 32, kLeastRoom = 1e-3;
 
 Point moved_point(const Point& centre, std::size_t variable, double by) {
   Point out = centre;
@@ -33,8 +34,8 @@ Room room_before_evaluation(const StudyProblem& problem, const MovedDesign& cent
   constexpr int kHalvings = 30;
   const StudyConstraints& constraints = problem.constraints();
   const auto at = [&](double share) {
-    Design d =
-        problem.space().design(moved_point(centre.unit, move.variable, share * move.sign * kStep));
+    Design d = problem.space().design(
+        moved_point(centre.unit, move.variable, share * move.part * move.sign * kStep));
     if (centre.flat) d.texture = Texture{};
     return constraints.before_evaluation(d);
   };
@@ -48,7 +49,7 @@ Room room_before_evaluation(const StudyProblem& problem, const MovedDesign& cent
       const double middle = 0.5 * (kept + broken);
       (at(middle)[k] <= 0 ? kept : broken) = middle;
     }
-    out.end(kept > kLimitTolerance ? kept : 0, limit_name(limits[k]->on));
+    out.end(kept > kLeastRoom ? kept : 0, limit_name(limits[k]->on));
   }
   return out;
 }
@@ -82,7 +83,7 @@ Room room_to_loss(const std::vector<StudyObjective>& objectives, const Score& ce
   Room out;
   for (std::size_t o = 0; o < objectives.size(); ++o) {
     const double loss = (objectives[o].maximise ? -1 : 1) * (moved.values[o] - centre.values[o]);
-    const double most = kToleratedLoss * std::abs(centre.values[o]);
+    const double most = tolerated_loss(objectives[o], centre.values[o]);
     if (loss > most) out.end(most / loss, "");
   }
   return out;
@@ -119,10 +120,13 @@ std::vector<SensitivityMove> sensitivity_moves(const StudyProblem& problem,
         (centre.flat && problem.study().variables[k].path.starts_with("texture.")))
       continue;
     for (int sign : {-1, 1}) {
-      const Point u = moved_point(centre.unit, k, sign * kStep);
-      const bool possible =
-          u[k] >= 0 && u[k] <= 1 && problem.constraints().possible(space.design(u));
-      if (possible && space.snapped(u) != centre.unit) out.push_back({k, sign, u});
+      for (double part = 1; part >= kLeastPart; part /= 2) {
+        const Point u = moved_point(centre.unit, k, part * sign * kStep);
+        if (not_moved(centre.unit, k, sign) == Drift::End::RangeEnds) break;
+        if (!problem.constraints().possible(space.design(u))) continue;
+        if (space.snapped(u) != centre.unit) out.push_back({k, sign, u, part});
+        break;
+      }
     }
   }
   return out;
@@ -137,7 +141,7 @@ std::vector<VariableSensitivity> sensitivity(const StudyProblem& problem, const 
   const auto& objectives = problem.objectives();
   const std::vector<double> centre_values = problem.space().value(centre.unit);
   for (std::size_t i = 0; i < moves.size(); ++i) {
-    const auto& [k, sign, unit] = moves[i];
+    const auto& [k, sign, unit, part] = moves[i];
     if (out.empty() || out.back().variable != k) {
       VariableSensitivity& added = out.emplace_back();
       added.variable = k;
@@ -151,14 +155,15 @@ std::vector<VariableSensitivity> sensitivity(const StudyProblem& problem, const 
       drift.end = Drift::End::Failed;
       continue;
     }
-    s.step = std::abs(problem.space().value(unit)[k] - centre_values[k]);
+    const double tried = std::abs(problem.space().value(unit)[k] - centre_values[k]);
+    s.step = tried / part;
     const bool second = !s.change.empty();
     if (!second) s.change.assign(objectives.size(), 0);
     for (std::size_t o = 0; o < objectives.size(); ++o) {
-      const double up = sign * (moved[i].values[o] - at_centre.values[o]);
+      const double up = sign * (moved[i].values[o] - at_centre.values[o]) / part;
       s.change[o] = second ? 0.5 * (s.change[o] + up) : up;
     }
-    drift = drift_of(s.step, room_to_loss(objectives, at_centre, moved[i]),
+    drift = drift_of(tried, room_to_loss(objectives, at_centre, moved[i]),
                      {room_before_evaluation(problem, centre, moves[i]),
                       room_with_evaluation(problem, at_centre, moved[i])});
   }

@@ -12,7 +12,7 @@ namespace papilla::search {
 // How far a number may be off one way, and what ends it there.
 struct Drift {
   enum class End {
-    Loss,       // an objective is worse by 5 % of its value
+    Loss,       // an objective is worse by what is tolerated
     Limit,      // a limit of the study is reached
     StepTried,  // nothing within the step that was tried
     RangeEnds,  // not judged: the space ends before that step
@@ -34,11 +34,12 @@ struct VariableSensitivity {
   Drift down, up;
 };
 
-// One variable of the design moved by a step.
+// One variable of the design moved by a step, or the largest part of it that makes a shape.
 struct SensitivityMove {
   std::size_t variable = 0;
   int sign = 0;
   Point unit;
+  double part = 1;  // of the step
 };
 
 // A design whose numbers are moved; flat: without its texture, whose numbers then move nothing.

@@ -10,21 +10,21 @@
 namespace papilla::search {
 namespace {
 
-constexpr double kNear = 0.05;  // of an objective's value
-
-// Better in every objective by more than what counts as near. Eq. search.22
-bool far_better(const std::vector<double>& a, const std::vector<double>& b) {
+// Better in every objective by more than it may lose. Eq. search.22
+bool far_better(const std::vector<StudyObjective>& objectives, const std::vector<double>& a,
+                const std::vector<double>& b) {
   for (std::size_t k = 0; k < a.size(); ++k) {
-    if (b[k] - a[k] <= kNear * std::abs(a[k])) return false;
+    if (b[k] - a[k] <= tolerated_loss(objectives[k], a[k])) return false;
   }
   return true;
 }
 
-std::vector<const Evaluation*> good_of(const std::vector<const Evaluation*>& feasible) {
+std::vector<const Evaluation*> good_of(const std::vector<StudyObjective>& objectives,
+                                       const std::vector<const Evaluation*>& feasible) {
   std::vector<const Evaluation*> out;
   for (const Evaluation* e : feasible) {
     if (std::none_of(feasible.begin(), feasible.end(), [&](const Evaluation* other) {
-          return far_better(other->outcome.objectives, e->outcome.objectives);
+          return far_better(objectives, other->outcome.objectives, e->outcome.objectives);
         }))
       out.push_back(e);
   }
@@ -87,7 +87,7 @@ SharedRanges shared_ranges(const StudyProblem& problem, const JudgedDesigns& his
   for (const Evaluation& e : history.evaluations) {
     if (e.outcome.feasible()) feasible.push_back(&e);
   }
-  const std::vector<const Evaluation*> good = good_of(feasible);
+  const std::vector<const Evaluation*> good = good_of(problem.objectives(), feasible);
   SharedRanges out{good.size(), feasible.size(), {}};
   const std::vector<Variable>& variables = problem.study().variables;
   for (std::size_t k = 0; k < variables.size(); ++k) {

@@ -90,15 +90,17 @@ std::vector<std::string> stability_variants(const StudyProblem& problem) {
   return out;
 }
 
-std::size_t skin_variant(const StudyProblem& problem) { return problem.nominal_tasks(); }
+std::optional<std::size_t> skin_variant(const StudyProblem& problem) {
+  if (problem.study().design.counterface.in_place()) return std::nullopt;
+  return problem.nominal_tasks();
+}
 
 TaskAnswer evaluate_variant(const StudyProblem& problem, const Design& design, std::size_t index,
                             const Fidelity& fidelity) {
   const Variant variant = variants(problem).at(index);
   const StudyTask& task = problem.tasks()[variant.task];
   const StudyGoals& goals = problem.goals();
-  Design d = with_settings(design, task.settings);
-  if (!d.counterface.in_place()) d.finger = task.finger;
+  const Design d = task_design(problem.study(), design, task);
   Scene scene = scene_of(d);
   variant.change(scene);
   Responses both{evaluate(scene, d.texture, fidelity), pen_response(goals, d, fidelity)};
@@ -129,6 +131,7 @@ Stability judge_stability(const StudyProblem& problem, const std::vector<Point>&
       std::vector<double>& values = result.values.emplace_back();
       std::vector<LimitValue>& broken = result.broken.emplace_back();
       result.worst.push_back(answer.worst);
+      result.unanswered.push_back(answer.status.text);
       if (!answer.status.ok()) continue;
       for (const TaskObjective& o : answer.objectives) values.push_back(o.value);
       broken =
@@ -149,7 +152,9 @@ Stability judge_stability(const StudyProblem& problem, const std::vector<Point>&
     }
     out.variants.push_back(std::move(result));
   }
-  if (!names.empty()) out.other_skin = skin_variant(problem);
+  if (names.empty()) return out;
+  out.other_skin = skin_variant(problem);
+  out.first_choice = problem.nominal_tasks() + (out.other_skin ? 1 : 0);
   return out;
 }
 

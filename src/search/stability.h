@@ -21,12 +21,15 @@ struct StabilityVariant {
       beaten_by{};  // a design that is better in everything that is compared
   std::vector<std::vector<LimitValue>> broken{};  // limits of the study that it does not keep
   std::vector<double> worst{};                    // lowest modulation over humidity
+  std::vector<std::string> unanswered{};          // why a design has no values; "": it has
 };
 
 struct Stability {
   std::vector<StabilityVariant> variants;
-  std::vector<int> times_on_front;        // of a design, over the variants
-  std::optional<std::size_t> other_skin;  // the variant of another state of the skin
+  std::vector<int> times_on_front;  // of a design, over the variants
+  std::optional<std::size_t>
+      other_skin;                // the variant of another state of the skin; a pin has none
+  std::size_t first_choice = 0;  // of the variants that are choices of the model
 
   bool judged(std::size_t design) const { return design < times_on_front.size(); }
   // On the front in two thirds of the variants at least; of a judged design.
@@ -40,8 +43,8 @@ struct Stability {
 // choice of the model: droplet mobility, droplets per volume, the pull over droplets that do not
 // bridge, what the air withstands, equilibrium or one pass.
 std::vector<std::string> stability_variants(const StudyProblem& problem);
-// The one of another state of the skin.
-std::size_t skin_variant(const StudyProblem& problem);
+// The one of another state of the skin; nothing where a pin touches in place of a finger.
+std::optional<std::size_t> skin_variant(const StudyProblem& problem);
 
 // One design in one variant, with the samples behind its errors. Cost: one finger at this fidelity.
 TaskAnswer evaluate_variant(const StudyProblem& problem, const Design& design, std::size_t variant,

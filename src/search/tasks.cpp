@@ -77,8 +77,24 @@ std::vector<StudyTask> study_tasks(const Study& study) {
   return tasks;
 }
 
+namespace {
+
+// The task's finger in place of the design's, but for what the study varies of it.
+void put_finger(const Study& study, const Finger& finger, Design& design) {
+  std::vector<std::pair<std::string, double>> varied;
+  for (const Variable& v : study.variables) {
+    if (v.path.starts_with("finger."))
+      varied.emplace_back(v.path, *find_number_field(number_fields(design), v.path).value);
+  }
+  design.finger = finger;
+  for (const auto& [path, value] : varied)
+    *find_number_field(number_fields(design), path).value = value;
+}
+
+}  // namespace
+
 Design task_design(const Study& study, Design d, const StudyTask& task) {
-  if (!d.counterface.in_place()) d.finger = task.finger;
+  if (!d.counterface.in_place()) put_finger(study, task.finger, d);
   d = with_settings(std::move(d), task.settings);  // a scenario may change the finger too
   if (task.nominal()) return d;
   std::vector<double> deviation(study.scatter.size(), 0.0);

@@ -30,7 +30,9 @@ std::string last_line(const std::string& text) {
 LabDesk::LabDesk(std::filesystem::path folder, std::string program, std::function<void()> told)
     : folder_(folder), program_(std::move(program)), told_(std::move(told)) {}
 
-LabDesk::~LabDesk() {
+LabDesk::~LabDesk() { close(); }
+
+void LabDesk::close() {
   stop();
   if (thread_.joinable()) thread_.join();
 }

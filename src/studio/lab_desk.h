@@ -20,7 +20,7 @@ class LabDesk {
  public:
   // program: that runs `next` and `tell`. told: of every change, from the desk's own thread.
   LabDesk(std::filesystem::path folder, std::string program, std::function<void()> told);
-  ~LabDesk();  // what works is ended; a lab loses nothing that it had said
+  ~LabDesk();  // closes
   LabDesk(const LabDesk&) = delete;
   LabDesk& operator=(const LabDesk&) = delete;
 
@@ -32,6 +32,9 @@ class LabDesk {
   // A table or a record of a tribometer, kept under its name. Throws InputError.
   void keep(const std::string& results, const std::string& name, const std::string& bytes) const;
   void stop();
+  // What works is ended, and nothing is told any more; a lab loses nothing that it had said. Before
+  // what `told` asks goes.
+  void close();
 
   nlohmann::ordered_json json(const std::string& results) const;  // all that the page draws
 

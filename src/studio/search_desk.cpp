@@ -107,13 +107,15 @@ SearchDesk::SearchDesk(fs::path folder, std::string program, std::function<void(
   thread_ = std::thread([this] { watch(); });
 }
 
-SearchDesk::~SearchDesk() {
+SearchDesk::~SearchDesk() { close(); }
+
+void SearchDesk::close() {
   {
     const std::lock_guard lock(mutex_);
     closing_ = true;
   }
   changed_.notify_all();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 std::string SearchDesk::place() const { return fmt::format("{}/{:03}", kSearches, number_); }

@@ -45,7 +45,8 @@ SearchWish search_wish(const nlohmann::ordered_json& json);  // throws InputErro
 // a page wrote over it (text of JSON; empty: nothing).
 nlohmann::ordered_json proposed_wish(const Study& study, const std::string& kept = "");
 
-// The study file of a wish on a design; a whole file of its own.
+// The study file of a wish on a design; a whole file of its own. What the page has no row for stays
+// as the study has it where the wish is not of it: values and levels to choose among, targets.
 std::string study_text(const Study& study, const SearchWish& wish);
 
 enum class SearchState { None, Running, Paused, Finished, Failed };
@@ -54,7 +55,7 @@ class SearchDesk {
  public:
   // program: that runs `optimize`. told: of every change, from the desk's own thread.
   SearchDesk(std::filesystem::path folder, std::string program, std::function<void()> told);
-  ~SearchDesk();  // a running search is ended after its journal's last record; it can be resumed
+  ~SearchDesk();  // closes
   SearchDesk(const SearchDesk&) = delete;
   SearchDesk& operator=(const SearchDesk&) = delete;
 
@@ -65,6 +66,9 @@ class SearchDesk {
   void resume();
   // Looks for no more: the best of what was found is confirmed and reported.
   void stop();
+  // A running search is ended after its journal's last record and can be resumed; nothing is told
+  // any more. Before what `told` asks goes.
+  void close();
   // Makes an earlier search the present one. Throws InputError where one runs, or for a number of
   // none.
   void show(int number);

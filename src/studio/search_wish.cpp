@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "config/describe.h"
+#include "design/paths.h"
 #include "geometry/texture.h"
 #include "metrics/metrics.h"
 #include "studio/search_desk.h"
@@ -60,7 +61,47 @@ Node range_node(const VariableWish& v) {
   return out;
 }
 
-Node space_node(const SearchWish& wish) {
+bool has_number(const Study& study, const std::string& path) {
+  Design design = study.design;
+  const std::vector<NumberField> known = number_fields(design);
+  return std::any_of(known.begin(), known.end(),
+                     [&](const NumberField& field) { return field.path == path; });
+}
+
+// Variables that the form has no row for: values and levels to choose among. One that the wish
+// names is as the wish has it, and a number of a kind that competes no more is none.
+std::vector<Variable> kept_variables(const Study& study, const SearchWish& wish) {
+  std::vector<Variable> out = study.variables;
+  std::erase_if(out, [&](const Variable& v) {
+    const bool named = std::any_of(wish.variables.begin(), wish.variables.end(),
+                                   [&](const VariableWish& own) { return own.path == v.path; });
+    const bool there = v.is_levels() || wish.kinds.size() > 1 || has_number(study, v.path);
+    return v.choices.empty() || v.is_kind() || named || !there;
+  });
+  return out;
+}
+
+// What the study aims at, until a goal that is none of its own takes the place.
+Node kept_targets(const Study& study, const SearchWish& wish) {
+  const Node* objective = study.study_sections.find("objective");
+  const Node* target = objective ? objective->find("target") : nullptr;
+  if (!target) return table_node();
+  Node out = *target;
+  const auto replace = [&](const std::vector<std::string>& goals,
+                           const std::vector<MetricExpression>& own) {
+    for (const std::string& goal : goals) {
+      const MetricExpression wanted = parse_metric(goal);
+      if (wanted.pen || std::find(own.begin(), own.end(), wanted) != own.end()) continue;
+      std::erase_if(out.children,
+                    [&](const Node& aim) { return find_metric(aim.key) == wanted.metric; });
+    }
+  };
+  replace(wish.maximise, study.objective.maximise);
+  replace(wish.minimise, study.objective.minimise);
+  return out;
+}
+
+Node space_node(const Study& study, const SearchWish& wish) {
   Node space = table_node();
   if (wish.kinds.size() > 1) {
     Node choice = table_node();
@@ -70,6 +111,16 @@ Node space_node(const SearchWish& wish) {
   for (const VariableWish& v : wish.variables) {
     if (v.low != v.high) space.set(v.path, range_node(v));
   }
+  bool varies = !space.children.empty();
+  const Node* own = study.study_sections.find("design_space");
+  const PathMembers members = own ? members_by_path(*own, {"choice", "range"}) : PathMembers{};
+  for (const Variable& v : kept_variables(study, wish)) {
+    for (const auto& [path, node] : members) {
+      if (path == v.path) space.set(path, *node);
+    }
+    varies = varies || v.choices.size() > 1;
+  }
+  if (!varies) throw InputError("a search needs a variable: let one vary that is pinned");
   return space;
 }
 
@@ -184,12 +235,7 @@ namespace {
 void keep_scatter(Node& sections, const Study& study) {
   Node* scatter = sections.find("scatter");
   if (!scatter) return;
-  Design design = study.design;
-  const std::vector<NumberField> known = number_fields(design);
-  const auto has = [&](const std::string& path) {
-    return std::any_of(known.begin(), known.end(),
-                       [&](const NumberField& field) { return field.path == path; });
-  };
+  const auto has = [&](const std::string& path) { return has_number(study, path); };
   const std::vector<Scatter>& all = study.scatter;
   for (const Scatter& s : all) {
     if (!has(s.path)) erase_member(*scatter, s.path);
@@ -205,6 +251,22 @@ void keep_scatter(Node& sections, const Study& study) {
   const bool any =
       std::any_of(all.begin(), all.end(), [&](const Scatter& s) { return has(s.path); });
   if (!any) std::erase_if(sections.children, [](const Node& n) { return n.key == "scatter"; });
+}
+
+// What a search of the page has from the study without a row for it, for people.
+std::vector<std::string> kept_words(const Study& study, const std::vector<std::string>& kinds) {
+  SearchWish wish;
+  wish.kinds = kinds;
+  std::vector<std::string> out;
+  for (const Variable& v : kept_variables(study, wish)) {
+    std::vector<std::string> values;
+    for (const double choice : v.choices) values.push_back(variable_text(v, choice));
+    out.push_back(v.path + " " + join_names(values));
+  }
+  for (const Target& t : study.objective.targets)
+    out.push_back(fmt::format("target {} = {}", metric_text(t.metric),
+                              quantity(t.value, info_of(t.metric).unit)));
+  return out;
 }
 
 std::vector<std::string> metric_texts(const std::vector<MetricExpression>& expressions) {
@@ -261,7 +323,7 @@ Json proposed_wish(const Study& study, const std::string& kept) {
   for (const std::string& file : finger_files(study)) fingers.push_back(finger_name(file));
   const Objective& own = study.objective;
   std::vector<MetricExpression> maximise = own.maximise, minimise = own.minimise;
-  if (maximise.empty() && minimise.empty()) {
+  if (maximise.empty() && minimise.empty() && own.targets.empty()) {
     const bool driven = study.design.drive.driven();
     maximise = {{Summary::Mean, driven ? kModulation : kFriction}};
     if (driven) minimise = {{Summary::Variation, kModulation}};
@@ -276,6 +338,7 @@ Json proposed_wish(const Study& study, const std::string& kept) {
            {"limits", limits},
            {"known_limits", known},
            {"metrics", metrics},
+           {"kept", kept_words(study, kinds)},
            {"evaluations", study.search.evaluations}};
   const Json page = Json::parse(kept, nullptr, false);
   if (page.is_object()) write_over(out, page);
@@ -283,7 +346,8 @@ Json proposed_wish(const Study& study, const std::string& kept) {
 }
 
 std::string study_text(const Study& study, const SearchWish& wish) {
-  if (wish.maximise.empty() && wish.minimise.empty())
+  Node target = kept_targets(study, wish);
+  if (wish.maximise.empty() && wish.minimise.empty() && target.children.empty())
     throw InputError("a search needs something to maximise or to minimise");
   const std::string own(texture_kinds()[study.design.texture.kind.index()]);
   if (wish.kinds.size() == 1 && wish.kinds.front() != own)
@@ -293,13 +357,11 @@ std::string study_text(const Study& study, const SearchWish& wish) {
         wish.kinds.front(), own));
   Study out = study;
   Node& sections = out.study_sections;
-  Node space = space_node(wish);
-  if (space.children.empty())
-    throw InputError("a search needs a variable: let one vary that is pinned");
-  sections.set("design_space", std::move(space));
+  sections.set("design_space", space_node(study, wish));
   Node objective = table_node();
   if (!wish.maximise.empty()) objective.set("maximise", texts_node(wish.maximise));
   if (!wish.minimise.empty()) objective.set("minimise", texts_node(wish.minimise));
+  if (!target.children.empty()) objective.set("target", std::move(target));
   if (const Node* old = sections.find("objective"); old && old->find("risk"))
     objective.set("risk", *old->find("risk"));
   sections.set("objective", std::move(objective));

@@ -175,12 +175,12 @@ Studio::Studio(const StudioOptions& options, const std::string& file)
   design_changed();
 }
 
-// Pages first, then who works for them.
+// Pages first, then who works for them. A desk that works asks both desks for what it tells.
 Studio::~Studio() {
   server_->stop();
   evaluator_.reset();
-  lab_.reset();  // it asks the other desk whose lab it is
-  desk_.reset();
+  lab_->close();
+  desk_->close();
   try {
     files_.handle().remove(kOpeningFile);
   } catch (const InputError&) {  // its token opens nothing any more

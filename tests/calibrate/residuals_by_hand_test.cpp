@@ -55,7 +55,7 @@ ResponsePoint run(const FrictionDatum& d, const Finger& finger, const Fidelity& 
   Scene scene = scene_of(design);
   scene.finger = finger;
   scene.finger.load = d.load;
-  scene.finger.state = design.finger.state;
+  scene.finger.state = d.state.value_or(design.finger.state);
   scene.model = finger.calibrated_for;
   scene.drive.amplitude = d.amplitude;
   if (d.frequency > 0) scene.drive.frequency = d.frequency;
@@ -88,6 +88,29 @@ TEST(ResidualsByHand, OfATableAreFrictionsInMillinewtons) {
   EXPECT_TRUE(residuals.residuals(c, {}, r));
   near(r[0], (model[0].value - 100) / (10 * std::sqrt(5.0)));
   near(r[6], (model[6].value - 100) / (50 * std::sqrt(5.0)));
+}
+
+// Two states of one surface, and a friction that is known under voltage alone.
+TEST(ResidualsByHand, AreOfTheStateThatARowSays) {
+  Calibration c = few_pixels();
+  FrictionDatum natural = c.data[3], wet = c.data[2];
+  natural.state = FingerState::Natural;
+  wet.state = FingerState::Wet;
+  wet.off = wet.off_sd = 0;
+  c.data = {c.data[3], natural, wet};
+  Residuals residuals(c, 1);
+  ASSERT_EQ(residuals.size(), 3);
+  EXPECT_EQ(residuals.sources().size(), 3u);
+  EXPECT_EQ(residuals.rows()[0].what, "F_off of flat at 0.3 N, 35 % RH, 0 V, mN");
+  EXPECT_EQ(residuals.rows()[2].what, "F_on of flat at 0.5 N, 35 % RH, 150 V, wet, mN");
+  const Fidelity fidelity = c.sampling.fidelity(1);
+  const std::vector<Estimate> model = residuals.model(c, {});
+  ASSERT_EQ(model.size(), 3u);
+  near(model[0].value, 1e3 * run(c.data[0], asked(), fidelity).friction_off.value);
+  near(model[1].value, 1e3 * run(natural, asked(), fidelity).friction_off.value);
+  near(model[2].value, 1e3 * run(wet, asked(), fidelity).friction_on.value);
+  EXPECT_GT(std::abs(model[1].value / model[0].value - 1), 0.01);
+  EXPECT_TRUE(std::isfinite(residuals.correct(c, {})));
 }
 
 // The finer level of the check, on the skins of the fit: frictions follow it from then on.

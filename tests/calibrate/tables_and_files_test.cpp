@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -102,9 +103,7 @@ TEST_F(TablesAndFiles, NumbersLieInTheirRanges) {
   EXPECT_EQ(told("0.5,1,5,,0.1,1,,"), "2:0: load: expected a number, got \"\"\n");
   EXPECT_EQ(told("0.5,1,5,0.2,0.1,,,"), "2:0: F_off_sd: expected a number, got \"\"\n");
   EXPECT_EQ(told("0.5,1,5,0.2,1,1,1,"), "2:0: F_on_sd: expected a number, got \"\"\n");
-  EXPECT_EQ(told("0.5,1,5,0.2,,,1,1"),
-            "2:0: F_off: a row under voltage needs the friction without it too, of the same "
-            "touch\n");
+  EXPECT_EQ(told("0.5,1,5,0.2,,,1,1"), "");
   EXPECT_EQ(told("0.5,0,0,0.2,1,1,1,1"),
             "2:0: F_on: a friction under voltage, but the voltage is 0\n");
   EXPECT_EQ(told("half,1,5,0.2,1 N,1,1,1"),
@@ -120,7 +119,7 @@ TEST_F(TablesAndFiles, NumbersLieInTheirRanges) {
   EXPECT_EQ(told("0.5,0,0,0.2,,,,"), "1:0: F_off: no row has a friction\n");
 }
 
-TEST_F(TablesAndFiles, ATableIsOfOneFingerInOneState) {
+TEST_F(TablesAndFiles, ATableIsOfOneFinger) {
   const std::string head = "design,load_N,humidity_percent,F_off_N,F_off_sd_N,finger,state\n",
                     row = "m3_samples/flat.toml,0.2,35,0.1,0.01,";
   const auto told = [&](const std::string& rows) {
@@ -128,8 +127,24 @@ TEST_F(TablesAndFiles, ATableIsOfOneFingerInOneState) {
   };
   EXPECT_EQ(told(row + "Ada,clean\n" + row + "Ada,clean\n"), "");
   EXPECT_EQ(told(row + "Ada,clean\n" + row + "Ben,natural\n"),
-            "3:0: finger: \"Ben\", and \"Ada\" in line 2: a fit is of one finger, so a table each\n"
-            "3:0: state: another than in line 2: a fit is of one state, so a table each\n");
+            "3:0: finger: \"Ben\", and \"Ada\" in line 2: a fit is of one finger, so a table "
+            "each\n");
+}
+
+TEST_F(TablesAndFiles, ARowSaysItsStateOrHasThatOfItsDesign) {
+  const std::string row = "m3_samples/flat.toml,0.2,35,200,5000,";
+  const std::vector<FrictionDatum> rows =
+      read_friction(
+          write("s.csv",
+                "design,load_N,humidity_percent,voltage_V,frequency_Hz,F_off_N,F_off_sd_N,"
+                "F_on_N,F_on_sd_N,state\n" +
+                    row + "0.1,0.01,,,\n" + row + ",,0.2,0.02,natural\n"))
+          .rows;
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].state, std::nullopt);
+  EXPECT_EQ(rows[1].state, FingerState::Natural);
+  EXPECT_EQ(rows[1].off_sd, 0);
+  EXPECT_EQ(rows[1].on, 0.2);
 }
 
 TEST_F(TablesAndFiles, AFileWithoutAHeadOrRowsIsRefused) {

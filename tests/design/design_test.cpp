@@ -396,6 +396,41 @@ TEST(Study, APopulationTouchesAsTheStudySays) {
   EXPECT_EQ(read("[finger]\nstate = \"natural\"\n"), expected);
 }
 
+// What the file of the study's finger says is that finger's: natural.toml keeps its state beside a
+// study on reference.toml, and a resolved file says which of its own values hold for all.
+TEST(Study, APopulationKeepsWhatTheStudysOwnFingerIsBasedOn) {
+  const std::string head =
+      "schema_version = 1\n[texture]\ntype = \"flat\"\n[finger]\nbase = "
+      "\"fingers/reference.toml\"\nload = \"0.3 N\"\nskin.rms = \"200 nm\"\n[population]\nfingers "
+      "= "
+      "[\"fingers/clean.toml\", \"fingers/natural.toml\"]\n[design_space]\n"
+      "\"surface.contact_angle\" = [\"30 deg\", \"80 deg\"]\n[objective]\nminimise = "
+      "\"mean(friction)\"\n";
+  const Study study = read_study(written("based.toml", head));
+  EXPECT_EQ(study.population.at(0).state, FingerState::Clean);
+  EXPECT_EQ(study.population.at(1).state, FingerState::Natural);
+  for (const Finger& f : study.population) EXPECT_EQ(f.load, 0.3) << f.name;
+  EXPECT_FALSE(study.population[1].belief.empty());
+  ASSERT_EQ(study.unheard, std::vector<std::string>{"finger.skin.rms"});
+  EXPECT_NE(unused_of(study).at(0).find("finger.skin.rms: a search does not use"),
+            std::string::npos);
+  const Study again = read_study(written("resolved.toml", resolved_toml(study)));
+  EXPECT_EQ(again.population, study.population);
+  EXPECT_TRUE(again.unheard.empty());
+  // A key of the command line is the study's own.
+  const Study without =
+      read_study(written("based.toml", head), {"finger.belief=", "finger.touch_time=3 s"});
+  for (const Finger& f : without.population) {
+    EXPECT_EQ(f.belief, "") << f.name;
+    EXPECT_EQ(f.touch_time, 3) << f.name;
+  }
+  const std::string listed = head.substr(0, head.find("[design_space]")) + "shared = [\"skin\"]\n";
+  EXPECT_NE(problems_of(listed).find("population.shared: expected one of load, state, touch_time, "
+                                     "belief, got \"skin\""),
+            std::string::npos)
+      << problems_of(listed);
+}
+
 // By its file, or by its folder where the file has the name that all have.
 TEST(Study, IsNamedByItsFileOrItsFolder) {
   const auto name = [](const std::string& file) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "calibrate/friction_table.h"
 #include "report/lab_folder.h"
 #include "tests/cli/program.h"
 #include "tests/lab/small_lab.h"
@@ -93,6 +94,20 @@ TEST_F(LabFolder, CountsATableOnceHoweverOftenItIsTold) {
   EXPECT_NE(told.markdown.find("3 readings told already"), std::string::npos);
   EXPECT_EQ(readings(), 3u);
   EXPECT_EQ(file_text(folder_ + "/belief.toml"), belief);
+}
+
+TEST_F(LabFolder, GivesEveryReadingWithItsStateToAFit) {
+  tell({file("a.csv",
+             "design,repeat,load_N,humidity_percent,voltage_V,day,state,F_off_N,F_on_N\n"
+             "deep,1,0.2,35,200,1,clean,0.06,0.09\n"
+             "deep,1,0.2,35,200,1,natural,,0.08\n")});
+  const std::vector<FrictionDatum> rows = read_friction(folder_ + "/readings.csv").rows;
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].state, FingerState::Clean);
+  EXPECT_EQ(rows[0].off, 0.06);
+  EXPECT_EQ(rows[1].state, FingerState::Natural);
+  EXPECT_EQ(rows[1].off_sd, 0);
+  EXPECT_EQ(rows[1].on, 0.08);
 }
 
 TEST_F(LabFolder, LeavesOutWhatItsBeliefIsMadeOf) {

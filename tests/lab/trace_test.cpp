@@ -55,6 +55,38 @@ TEST(Record, PartsDriftOfTheZeroFromThatOfTheFriction) {
   EXPECT_TRUE(says(r.notes, "friction drifts by +"));
 }
 
+// The drive is on in every stroke forth and off in every stroke back.
+Tribometer driven_forth() {
+  Tribometer t;
+  t.drive_period = 2 * t.stroke;
+  t.zero = 0.003;
+  t.zero_drift = 0;
+  return t;
+}
+
+// Half a second after the strokes, at which the finger is off the surface.
+std::string with_lifted_finger(const Tribometer& t) {
+  std::string out = t.record();
+  for (int i = 0; i < t.rate / 2; ++i)
+    out += fmt::format("{:.6f},{},0,0,35,0\n", t.strokes * t.stroke + i / t.rate, t.zero);
+  return out;
+}
+
+TEST(Record, IsRefusedWhereTheDriveIsOnInOneDirectionAlone) {
+  EXPECT_EQ(refusal_of([] { read(driven_forth().record()); }),
+            "record.csv: its strokes do not part friction from the zero of the force, as where the "
+            "drive is on in one direction alone: record strokes of both directions with the drive "
+            "on and with it off, or a part without touch");
+}
+
+TEST(Record, OfADriveInOneDirectionTakesTheZeroFromWhereNothingTouches) {
+  const Tribometer t = driven_forth();
+  const TraceReading r = read(with_lifted_finger(t));
+  EXPECT_NEAR(r.off, t.off, 0.01 * t.off);
+  EXPECT_NEAR(r.on, t.on, 0.01 * t.on);
+  EXPECT_TRUE(says(r.notes, "the zero of the force, 3 mN, is that before and after the touch"));
+}
+
 TEST(Record, FollowsTheDriveWithItsLag) {
   Tribometer t;
   t.lag = 0.1;

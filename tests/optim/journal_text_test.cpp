@@ -100,7 +100,9 @@ TEST(JournalText, AHeadAloneIsNoRun) {
     }
   }
   const std::string other =
-      path + ": written for another study, seed or version; use another --out folder";
+      path +
+      ": written for another study, seed or version of Papilla, which alone goes on with it and "
+      "verifies it; a new run needs another folder";
   for (const std::string& before :
        {std::string("papilla-journal 2 kez\n"), std::string("papilla-journal 1 key\n"),
         std::string("x"), std::string("papilla-journal 2 key2\n"), std::string(500, 'x')}) {

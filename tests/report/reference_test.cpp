@@ -64,8 +64,11 @@ TEST(Reference, OfASectionOfStudiesHasItsKeysAlone) {
             "|\n");
   EXPECT_EQ(reference_section("population", ReferenceFormat::Text),
             "population: The fingers that a design is judged on.\n\n"
-            "population.fingers                   finger files; load and state of the study's "
-            "[finger] hold for all\n");
+            "population.fingers                   finger files; load, state, touch_time and belief "
+            "hold for all where the study itself says them in [finger] (not by the file that "
+            "[finger] is based on)\n"
+            "population.shared                    which of these hold for all, as a resolved file "
+            "names them: [\"load\", \"state\"]\n");
   const std::string scatter = reference_section("scatter", ReferenceFormat::Text);
   EXPECT_EQ(scatter,
             "scatter: How far fabrication may miss.\n\n"

@@ -212,7 +212,11 @@ TEST(JsonSchema, FingersAndScenariosAreLists) {
       schema()["properties"]["population"],
       (Json{{"type", "object"},
             {"properties",
-             {{"fingers", {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 1}}}}},
+             {{"fingers", {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 1}}},
+              {"shared",
+               {{"type", "array"},
+                {"items",
+                 {{"type", "string"}, {"enum", {"load", "state", "touch_time", "belief"}}}}}}}},
             {"additionalProperties", false},
             {"required", {"fingers"}}}));
   const Json& scenarios = schema()["properties"]["scenarios"];

@@ -305,7 +305,7 @@ TEST(BuildSheet, SaysWhyAPlaceDoesNotHoldAndTheAlternative) {
                 .find(" Its place does not hold: 1 of 2 checks (smooth: design 02 is better). The "
                       "alternative that holds in 2 of 2 is design 02 (holes 4 um wide at the top, "
                       "500 nm deep, "
-                      "8 um from one to the next, walls 88 deg steep)."),
+                      "8 um from one to the next in a square array, walls 88 deg steep)."),
             std::string::npos)
       << as_read(recommendation(run.files()));
 }
@@ -321,12 +321,14 @@ TEST(BuildSheet, SaysWhatItRestsOn) {
   for (StabilityVariant& v : s.variants) v.on_front = {true, true}, v.worst = {0.25, 0.2};
   s.variants[1].worst = {0.007, 0.1};
   s.times_on_front = {4, 4};
-  s.other_skin = 1;
+  s.other_skin = 1, s.first_choice = 2;
   run.result.finalists[0].confirmed.worst = 0.053;
   const std::vector<std::string> said = grounds(run.files());
-  ASSERT_GE(said.size(), 4u);
+  ASSERT_GE(said.size(), 5u);
+  EXPECT_EQ(as_read(said[0]),
+            "Film: 500 nm of SiO2, grown equally thick on every wall (conformal).");
   EXPECT_EQ(
-      as_read(said[0]),
+      as_read(said[1]),
       "Judged for degreased fingers (finger.state = \"clean\") at 15 to 75 % relative "
       "humidity under 0.2 N, driven with 200 V (peak) at 5 kHz. Finger \"" +
           run.problem.tasks().front().name +
@@ -344,18 +346,25 @@ TEST(BuildSheet, SaysWhatItRestsOn) {
   on_natural_skin("nor that of any other design here");
   s.variants[1].worst[1] = 0.25;
   on_natural_skin("a dominated design has 0.250 there");
-  EXPECT_EQ(as_read(said[1]),
+  EXPECT_EQ(as_read(said[2]),
             "In no ±: choices of the model (2 of them, on finger \"reference\"; the table \"Does "
             "the order "
             "hold?\" has each): over these it has mean(modulation) 0.252 to 0.922, "
             "variation(modulation) 0.200 to 0.400.");
-  EXPECT_EQ(as_read(said[2]),
+  EXPECT_EQ(as_read(said[3]),
             "Limits leave the making little room, one dimension at a time: depth at most 20 nm up "
             "(min_wall at least 0.4 um).");
-  EXPECT_EQ(as_read(said[3]),
+  EXPECT_EQ(as_read(said[4]),
             "At its worst, over fingers and humidity, the modulation is 0.053: below 0.2, the "
             "least relative difference of friction that people notice (Fehlberg 2022), it is not "
             "felt there.");
+  s.variants[1].values[0].clear();
+  s.variants[1].unanswered = {"reference, 75 % RH: pull-in: no equilibrium", ""};
+  EXPECT_NE(
+      as_read(grounds(run.files())[1])
+          .find("On natural skin, not degreased it has no value (reference, 75 % RH: pull-in: "
+                "no equilibrium)."),
+      std::string::npos);
 }
 
 // The best flat surface of a run stands beside the texture, not only that under the texture's film.
@@ -491,7 +500,7 @@ TEST(RunFolder, ItsTablesHaveEachNumberUnderItsHead) {
           "oxide_breakdown_margin,feasible,on front,status\n"
           "front/01,5,3,300,70,0.5,0.013,,0.52,0.3,0.023,,0.32,0.25,2.5,2.979 um,2 "
           "um,0.15,2.5,yes,no,ok\n"
-          "infeasible,8,4,500,40,,,,,,,,,0.2,,,,,,no,no,no; it ;failed;\n");
+          "infeasible,8,4,500,40,,,,,,,,,,,,,,,no,no,no; it ;failed;\n");
   expect_document(
       read_bytes(run.folder + "/sensitivity.json"),
       {{"schema", 1},

@@ -175,6 +175,19 @@ TEST(Constraints, NumbersStandBesideTheirLimits) {
   EXPECT_EQ(seen.size(), study.constraints.size());
 }
 
+// The film holds the drives that tasks have: not that of the study where each scenario has its own,
+// nor that of a scenario without weight.
+TEST(Constraints, OfTheFilmAreForTheDrivesOfTheScenarios) {
+  Study study = limited({read_constraint("oxide_breakdown_margin", 2)});
+  const auto margin = [&] { return StudyProblem(study).constraints().film_margin(study.design); };
+  const double own = margin(), volts = study.design.drive.amplitude;
+  study.scenarios = {{"weak", 1, {{"drive.amplitude", volts / 2}}},
+                     {"never", 0, {{"drive.amplitude", 4 * volts}}}};
+  EXPECT_NEAR(margin(), 2 * own, 1e-9 * own);
+  study.scenarios[1].weight = 1;
+  EXPECT_NEAR(margin(), own / 4, 1e-9 * own);
+}
+
 // Whatever a shipped study limits has a name that reads back to it, and a value on its own design.
 TEST(Constraints, HaveAValueInEveryShippedStudy) {
   namespace fs = std::filesystem;

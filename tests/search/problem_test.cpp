@@ -77,6 +77,23 @@ TEST(Tasks, AreEveryFingerInEveryScenarioThenBothEndsOfEachScatter) {
   EXPECT_NE(refusal(study).find("at least one weight above 0"), std::string::npos);
 }
 
+// Of a finger that stands in a design what the study varies stays; a scenario goes before that.
+TEST(Tasks, KeepWhatTheStudyVariesOfTheFinger) {
+  Study study = oxide_study();
+  study.population.resize(1);
+  study.population[0].load = 0.3, study.population[0].touch_time = 7;
+  study.variables = {{"finger.load", "N", 0.1, 1, {}}};
+  study.scenarios = {{"free", 1, {}}, {"heavy", 1, {{"finger.load", 0.9}}}};
+  Design design = study.design;
+  design.finger.load = 0.7;
+  const std::vector<StudyTask> tasks = study_tasks(study);
+  EXPECT_EQ(task_design(study, design, tasks[0]).finger.load, 0.7);
+  EXPECT_EQ(task_design(study, design, tasks[0]).finger.touch_time, 7);
+  EXPECT_EQ(task_design(study, design, tasks[1]).finger.load, 0.9);
+  study.variables.clear();
+  EXPECT_EQ(task_design(study, design, tasks[0]).finger.load, 0.3);
+}
+
 TEST(Tasks, WithoutAPopulationTheDesignsOwnFingerIsTheOnlyOne) {
   Study study = oxide_study();
   study.population.clear();
@@ -100,7 +117,7 @@ TEST(Goals, AreNamedInTheOrderOfTheirFileAndAtMostThree) {
     ASSERT_EQ(wanted.size(), 3u);
     EXPECT_EQ(wanted[0].name, "mean(modulation)");
     EXPECT_EQ(wanted[1].name, "worst(friction_on)");
-    EXPECT_EQ(wanted[2].name, "distance(friction_on, 0.4)");
+    EXPECT_EQ(wanted[2].name, "distance(friction_on = 0.4)");
     EXPECT_TRUE(wanted[0].maximise && wanted[1].maximise && !wanted[2].maximise);
     EXPECT_TRUE(wanted[2].aimed && !wanted[0].aimed);
     ASSERT_EQ(problem.goals().limited.size(), 3u);  // the wall is no metric
@@ -120,7 +137,7 @@ TEST(Goals, AreNamedInTheOrderOfTheirFileAndAtMostThree) {
   EXPECT_NE(refusal(study).find("one to three objectives are possible, got 4"), std::string::npos)
       << refusal(study);
   study.objective = {};
-  EXPECT_NE(refusal(study).find("got 0"), std::string::npos);
+  EXPECT_NE(refusal(study).find("a design and no study"), std::string::npos);
   study.objective.minimise = {parse_metric("haze")};
   EXPECT_TRUE(StudyProblem(study).goals().looks);
 }
@@ -298,6 +315,30 @@ TEST(Space, AReliefOfLessThanTwoNanometresIsNone) {
   EXPECT_FALSE(StudyProblem(study).space().has_features());
 }
 
+// The same designs in every variant; of each the objectives, their errors and samples, its margin.
+Stability judged(const StudyProblem& problem, const std::vector<TaskAnswer>& designs) {
+  const Point unit = problem.space().unit_of_study();
+  std::vector<std::vector<TaskAnswer>> answers;
+  for (const TaskAnswer& a : designs) answers.emplace_back(stability_variants(problem).size(), a);
+  return judge_stability(problem, std::vector<Point>(designs.size(), unit), answers);
+}
+
+// A pin has no skin: what follows its tasks are choices of the model.
+TEST(Stability, OfAPinIsThatOfItsChoicesOfTheModelAlone) {
+  Study study = without_belief(read_study(PAPILLA_SOURCE_DIR "/designs/finger_and_pen/study.toml",
+                                          {"counterface.type=pen"}));
+  study.objective = {};
+  study.objective.minimise = {parse_metric("mean(friction)")};
+  study.constraints.clear();
+  study.design.drive.amplitude = 0;
+  const StudyProblem problem(study);
+  EXPECT_EQ(skin_variant(problem), std::nullopt);
+  const Stability s = judged(problem, {});
+  EXPECT_EQ(s.other_skin, std::nullopt);
+  ASSERT_EQ(s.first_choice, 1u);
+  EXPECT_EQ(s.variants[1].name, "air insulates");
+}
+
 TEST(Stability, NamesEachFingerAndEachChoiceOfTheModel) {
   Study study = oxide_study();
   study.population.resize(2);
@@ -308,7 +349,8 @@ TEST(Stability, NamesEachFingerAndEachChoiceOfTheModel) {
              "first droplet step 800 nm", "a quarter of the droplets", "three times the droplets",
              "droplets do not raise the pull", "air insulates", "air breaks down at 350 V/um",
              "one pass"}));
-  EXPECT_EQ(skin_variant(StudyProblem(study)), 2u);
+  EXPECT_EQ(skin_variant(StudyProblem(study)), std::optional<std::size_t>(2));
+  EXPECT_EQ(judged(StudyProblem(study), {}).first_choice, 3u);
   for (Finger& f : study.population) {
     f.water.volume.clear();
     f.state = FingerState::Natural;
@@ -316,14 +358,6 @@ TEST(Stability, NamesEachFingerAndEachChoiceOfTheModel) {
   EXPECT_EQ(stability_variants(StudyProblem(study)),
             (Names{"finger one", "finger two", "degreased skin", "air insulates",
                    "air breaks down at 350 V/um", "one pass"}));
-}
-
-// The same designs in every variant; of each the objectives, their errors and samples, its margin.
-Stability judged(const StudyProblem& problem, const std::vector<TaskAnswer>& designs) {
-  const Point unit = problem.space().unit_of_study();
-  std::vector<std::vector<TaskAnswer>> answers;
-  for (const TaskAnswer& a : designs) answers.emplace_back(stability_variants(problem).size(), a);
-  return judge_stability(problem, std::vector<Point>(designs.size(), unit), answers);
 }
 
 TaskAnswer answered(const std::vector<double>& values, double error, double margin = 10) {
@@ -350,7 +384,9 @@ TEST(Stability, CountsALossBeyondItsErrorOnly) {
   EXPECT_EQ(times({-0.5, 0.20}, {-0.49, 0.19}), (Times{0, 10}));
   TaskAnswer failed;
   failed.status = {TaskStatus::Kind::NotDefined, "no"};
-  EXPECT_EQ(judged(problem, {answered({0.5, 0.2}, 0), failed}).times_on_front, (Times{10, 0}));
+  const Stability one_failed = judged(problem, {answered({0.5, 0.2}, 0), failed});
+  EXPECT_EQ(one_failed.times_on_front, (Times{10, 0}));
+  EXPECT_EQ(one_failed.variants[0].unanswered, (Names{"", "no"}));
   // Skin by skin the difference is known to 0.0005, however much the skins scatter.
   TaskAnswer one = answered({0.5, 0.20}, 0.1), other = answered({0.504, 0.19}, 0.1);
   one.samples = {{{{0.40, 0.60}, {}, {}}}, {{{0.10, 0.30}, {}, {}}}};
@@ -433,6 +469,23 @@ TEST(Samples, OfAMeanOverTasksAreTheirMeans) {
   other.errors = {0.5, 0.001};
   EXPECT_EQ(difference_error(score, other, 0), 0.5);
   EXPECT_EQ(difference_error(score, other, 1), score.errors[1]);
+}
+
+// The worst over fingers is that of the worst one, and so is its error.
+TEST(Samples, OfTheWorstTaskAreItsOwn) {
+  Study study = oxide_study();
+  study.population.resize(2);
+  study.objective = {};
+  study.objective.maximise = {parse_metric("worst(modulation)")};
+  const StudyProblem problem(study);
+  std::vector<TaskAnswer> answers(2);
+  answers[0].objectives = {{0.9, 0.001, {}}}, answers[1].objectives = {{0.4, 0.1, {}}};
+  answers[0].samples = {{{{0.8, 0.9, 1.0}, {}, {}}}},
+  answers[1].samples = {{{{0.2, 0.3, 0.7}, {}, {}}}};
+  const Score score = problem.score(problem.study().design, answers);
+  ASSERT_TRUE(score.ok) << score.reason;
+  EXPECT_EQ(score.values[0], 0.4);
+  EXPECT_NEAR(score.errors[0], std::sqrt((0.04 + 0.01 + 0.09) / 6), 1e-12);
 }
 
 // Under the risk of the worst humidity its samples alone count, and they say the error.

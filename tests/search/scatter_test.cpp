@@ -147,7 +147,7 @@ TEST(Target, TheDistanceIsTheRootMeanSquareOverHumidityAndFingers) {
                                    "environment.relative_humidity=[\"15 %\", \"75 %\"]"});
   const StudyProblem problem(study);
   ASSERT_EQ(problem.objectives().size(), 1u);
-  EXPECT_EQ(problem.objectives()[0].name, "distance(modulation, 0.8)");
+  EXPECT_EQ(problem.objectives()[0].name, "distance(modulation = 0.8)");
   Fidelity f = fidelity_level("search");
   f.skins = 4;
   const TaskAnswer task = evaluate_task(problem, study.design, 0, {f});

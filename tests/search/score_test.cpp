@@ -271,6 +271,51 @@ TEST(Slopes, EndAtTheLimitsOfTheStudy) {
   EXPECT_NEAR(found[2].down.most, found[2].step * 0.01 / 2.01, 1e-9 * found[2].step);
 }
 
+// Where a whole step makes no shape, as a period below its width, a part of it is tried; where no
+// room is left to a limit, that is said and not a room below any fab's.
+TEST(Slopes, TryThePartOfAStepThatMakesAShape) {
+  Study study = default_study();
+  for (Constraint& c : study.constraints) {
+    if (limit_name(c.on) == "min_wall") c.limit = 0.2e-6;
+  }
+  const StudyProblem problem(study);
+  const DesignSpace& space = problem.space();
+  const Point centre = space.unit({4e-6, 3.8e-6, 300e-9, 1.1});
+  const std::vector<SensitivityMove> moves = sensitivity_moves(problem, {centre});
+  const auto period = std::find_if(moves.begin(), moves.end(), [](const SensitivityMove& m) {
+    return m.variable == 0 && m.sign < 0;
+  });
+  ASSERT_NE(period, moves.end());
+  EXPECT_LT(period->part, 1);
+  Score here;
+  here.ok = true;
+  here.values = {0.5, 0.25};
+  here.oxide_margin = 10;
+  std::vector<Score> moved(moves.size(), here);
+  moved[static_cast<std::size_t>(period - moves.begin())].values[0] = 0.4;
+  const auto found = sensitivity(problem, {centre}, moves, here, moved);
+  const double range = space.cube().dimensions[0].high - space.cube().dimensions[0].low;
+  EXPECT_NEAR(found[0].step, 0.05 * range, 1e-9 * range);
+  EXPECT_EQ(found[0].down.end, Drift::End::Limit);
+  EXPECT_EQ(found[0].down.limit, "min_wall");
+  EXPECT_EQ(found[0].down.most, 0);
+  // Half of the change by a part of the step, over that part.
+  EXPECT_NEAR(found[0].change[0], 0.5 * 0.1 / period->part, 1e-9);
+}
+
+// Five per cent, or what is read of a look: of a sparkle of nothing nothing is lost.
+TEST(Slopes, TolerateWhatInstrumentsDoNotRead) {
+  const auto tolerated = [](const char* metric, double value) {
+    return tolerated_loss({.expression = parse_metric(metric), .name = metric}, value);
+  };
+  EXPECT_DOUBLE_EQ(tolerated("mean(modulation)", -0.4), 0.02);
+  EXPECT_EQ(tolerated("mean(sparkle)", 0), 0.001);
+  EXPECT_NEAR(tolerated("mean(haze)", 0.06), std::hypot(0.003, 0.001), 1e-15);
+  EXPECT_EQ(tolerated("mean(gloss)", 0), 0.1);
+  EXPECT_EQ(tolerated("mean(adhesion)", 0), 1e-4);
+  EXPECT_DOUBLE_EQ(tolerated("variation(adhesion)", 0.2), 0.01);
+}
+
 TEST(Levels, OneDesignInThreeIsJudgedAgainAndNoMoreThan32) {
   SearchProblem p;
   p.space.dimensions.assign(2, Dimension{});

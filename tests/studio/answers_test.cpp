@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 
 #include "base/files.h"
 #include "design/design.h"
@@ -173,6 +175,32 @@ TEST_F(Answers, AreToldAsOneLineEach) {
   EXPECT_LT(told["seconds"].get<double>(), 60);
   EXPECT_FALSE(told["response"].contains("seconds"));
   EXPECT_FALSE(told["response"]["points"].empty());
+}
+
+// A desk tells of both until its thread has ended.
+TEST(Studio, IsClosedWhileItsLabWorks) {
+  const TemporaryFolder folder;
+  StudioOptions options = studio_options(folder.path().string());
+  options.program = (folder.path() / "program.sh").string();
+  write_bytes(options.program,
+              "#!/bin/sh\n[ $1 = optimize ] && echo '{}' > $4/run.json && exit 0\n"
+              "while :; do sleep 0.05; done\n");
+  std::filesystem::permissions(options.program, std::filesystem::perms::owner_all);
+  std::string opening;
+  {
+    Studio studio(options);
+    opening = studio.opening_file();
+    const auto asked = [&](const char* method, const char* path, const char* body) {
+      return Json::parse(studio.answer({method, path, "", body}).body);
+    };
+    asked("POST", "/search/start",
+          R"j({"variables":[{"path":"texture.depth","low":"100 nm","high":"800 nm"}],)j"
+          R"j("maximise":["mean(modulation)"]})j");
+    for (int i = 0; i < 500 && asked("GET", "/state", "")["search"]["state"] != "finished"; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(asked("POST", "/lab/plan", R"({"touches":5})")["doing"], "plan");
+  }
+  EXPECT_FALSE(std::filesystem::exists(opening));
 }
 
 }  // namespace

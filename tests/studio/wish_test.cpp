@@ -269,6 +269,52 @@ TEST(SearchWish, KeepsWhatThePageDoesNotSay) {
   EXPECT_EQ(proposed_wish(two)["kinds"], Json({"hole_array", "pillar_array"}));
 }
 
+// A study of depths at two angles that aims at a modulation.
+Study choosing_study(const std::string& objective = "") {
+  return reread(
+      "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n[design_space]\n"
+      "\"texture.depth\" = [\"100 nm\", \"800 nm\"]\n"
+      "\"surface.contact_angle\" = { choice = [\"30 deg\", \"80 deg\"] }\n"
+      "[objective]\ntarget = { modulation = 0.8 }\n" +
+      objective);
+}
+
+TEST(SearchWish, KeepsChoicesOfTheStudyThatItDoesNotName) {
+  const Study study = choosing_study();
+  EXPECT_EQ(proposed_wish(study)["kept"],
+            Json({"surface.contact_angle 30 deg, 80 deg", "target modulation = 0.8"}));
+  EXPECT_EQ(proposed_wish(read_study(kHoles))["kept"], Json::array());
+  const auto variables = [&](const std::vector<VariableWish>& wanted) {
+    SearchWish wish = depth_wish();
+    wish.variables = wanted;
+    return reread(study_text(study, wish)).variables;
+  };
+  const VariableWish depth{"texture.depth", "100 nm", "800 nm"};
+  EXPECT_EQ(variables({depth}), study.variables);
+  EXPECT_EQ(variables({}), std::vector{study.variables[1]});
+  EXPECT_EQ(variables({depth, {"surface.contact_angle", "50 deg", "50 deg"}}),
+            std::vector{study.variables[0]});
+  const std::vector<Variable> ranges =
+      variables({depth, {"surface.contact_angle", "40 deg", "60 deg"}});
+  ASSERT_EQ(ranges.size(), 2u);
+  EXPECT_TRUE(ranges[1].choices.empty());
+}
+
+TEST(SearchWish, KeepsTargetsOfTheStudyUnlessAnotherGoalIsOfTheirMetric) {
+  const Study study = choosing_study(), steady = choosing_study("minimise = \"std(modulation)\"\n");
+  EXPECT_EQ(proposed_wish(study)["maximise"], Json::array());
+  const auto objective = [](const Study& of, std::vector<std::string> maximise,
+                            std::vector<std::string> minimise) {
+    SearchWish wish = depth_wish();
+    wish.maximise = std::move(maximise), wish.minimise = std::move(minimise);
+    return reread(study_text(of, wish)).objective;
+  };
+  EXPECT_EQ(objective(study, {}, {}), study.objective);
+  EXPECT_EQ(objective(steady, {}, {"std(modulation)"}), steady.objective);
+  EXPECT_EQ(objective(study, {}, {"mean(friction)"}).targets, study.objective.targets);
+  EXPECT_TRUE(objective(study, {"mean(modulation)"}, {}).targets.empty());
+}
+
 TEST(SearchWish, AnExcludedRangeHasItsUnitOnceOrTwice) {
   const auto excluded = [](const char* text) {
     SearchWish wish = depth_wish();

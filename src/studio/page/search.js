@@ -38,6 +38,8 @@ export function showWish(wish) {
   limits.querySelectorAll('.wishline, .add').forEach((e) => e.remove());
   wish.limits.forEach((l) => limits.append(limit(l)));
   limits.append(adder('Add a limit', () => limit({ name: wish.known_limits[0].name, limit: '' })));
+  $('wishkept').textContent = `Stays as the file has it where nothing above is of it: ${people(wish.kept.join('; '))}`;
+  $('wishkept').hidden = !wish.kept.length;
   $('evaluations').value = wish.evaluations || '';
   const own = document.querySelector('#kinds [aria-checked=true]');
   boxes('wishkinds', wish.known_kinds, wish.kinds.length ? wish.kinds : own ? [own.dataset.kind] : []);
