@@ -289,9 +289,10 @@ std::string others_sentence(const ResultFiles& f) {
 }
 
 std::string chosen_how(const ResultFiles& f) {
-  return f.problem.belief_risk().regret
-             ? "the least expected regret"
-             : fmt::format("the best by risk.belief = \"{}\"", f.study.risk.belief);
+  return (f.problem.belief_risk().regret
+              ? "the least expected regret"
+              : fmt::format("the best by risk.belief = \"{}\"", f.study.risk.belief)) +
+         of_the_sure_text(f);
 }
 
 // How much of the doubt more skins would take away, and what only measurements can.
@@ -312,6 +313,17 @@ std::optional<std::size_t> design_to_measure(const ResultFiles& f) {
   const Decision& d = decision_of(f);
   if (!d.made() || d.designs.size() < 2 || d.designs[d.best].p_best > kSure) return std::nullopt;
   return rival_of(d);
+}
+
+std::string of_the_sure_text(const ResultFiles& f) {
+  const Decision& d = decision_of(f);
+  const double wanted = f.study.risk.limits;
+  const bool all = std::all_of(d.designs.begin(), d.designs.end(),
+                               [&](const Prospect& p) { return p.p_limits >= wanted - 1e-9; });
+  if (all) return {};
+  if (!d.sure(wanted)) return " of those that keep every limit the most surely";
+  return " of those that keep every limit with probability " +
+         percent_stated("probability that the study wants (risk.limits)", wanted) + " or more";
 }
 
 std::vector<std::string> decision_grounds(const ResultFiles& f) {

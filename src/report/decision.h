@@ -17,6 +17,9 @@ namespace papilla::report {
 // overturn it: ...", "To be surer, measure ...": a line each. Of the design that the decision is
 // for; none without a decision.
 std::vector<std::string> decision_grounds(const ResultFiles& files);
+// " of those that keep every limit with probability 90 % or more": among which designs the choice
+// is; "" where all do.
+std::string of_the_sure_text(const ResultFiles& files);
 // The design whose measurement beside that of the chosen one settles most; nothing where the choice
 // is sure.
 std::optional<std::size_t> design_to_measure(const ResultFiles& files);

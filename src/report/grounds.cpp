@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "base/units.h"
 #include "metrics/shown.h"
 #include "report/decision.h"
 #include "report/limits.h"
@@ -239,6 +240,41 @@ std::string limit_of_name(const ResultFiles& f, const std::string& name) {
   return name;
 }
 
+// What another rule would build, where the worst modulation or one objective decides: objectives
+// that do not, as haze beside touch, are paid for without a word else.
+std::string other_rule_text(const ResultFiles& f) {
+  const std::vector<StudyObjective>& objectives = f.problem.objectives();
+  const Decision& decision = f.result.decision;
+  std::vector<PickCandidate> front;  // the first of the finalists
+  for (const FinalDesign& d : f.result.finalists) {
+    if (d.on_front) front.push_back(search::pick_candidate(f.problem, d.confirmed));
+  }
+  const bool by_knee =
+      f.pick == "knee" || (decision.made() && decision.rule.kind == PickRule::Kind::Knee);
+  if (objectives.size() < 2 || front.size() < 2 || !f.problem.driven() || by_knee) return {};
+  const std::size_t other = search::pick_design("knee", front, decision.ranges);
+  if (other == f.result.best || f.result.best >= front.size()) return {};
+  const std::string name = design_name(f.result.finalists[other].folder);
+  const Score &there = f.result.finalists[other].confirmed,
+              &here = f.result.finalists[f.result.best].confirmed;
+  std::vector<std::string> values;
+  for (std::size_t k = 0; k < objectives.size(); ++k) {
+    const std::string unit = shown_unit(objectives[k].expression).unit;
+    const auto said = [&](const std::string& of, const Score& score) {
+      return stated(objective_number(f, of, score, k),
+                    shown_value(objectives[k].expression, score.values[k]) +
+                        (unit.empty() ? "" : " " + unit));
+    };
+    values.push_back(fmt::format("{} {} in place of {}", objectives[k].name, said(name, there),
+                                 said("what is recommended", here)));
+  }
+  return fmt::format(
+      "By the rule \"knee\", which weighs all objectives alike, {} would be built: {}, a worst "
+      "modulation of {} in place of {}.",
+      name, join_names(values), worst_text(name, there.worst),
+      worst_text("what is recommended", here.worst));
+}
+
 // Dimensions that a limit leaves nothing or little: what the fab has to know first.
 std::string room_text(const ResultFiles& f) {
   std::vector<std::string> none;
@@ -255,7 +291,9 @@ std::string room_text(const ResultFiles& f) {
                                        {Stage::Confirm, Stage::Rounding, Stage::Sensitivity}),
                            in_unit(drift->most, row.unit, 2))
               : std::string("not at all"),
-          way, limit_of_name(f, drift->limit)));
+          way,
+          limit_of_name(f, drift->limit) +
+              (drift->limit == "yield" ? ", the scatter on top of it" : "")));
     };
     add(row.down, "down");
     add(row.up, "up");
@@ -294,7 +332,10 @@ std::string unfelt_skin_text(const ResultFiles& f) {
 
 std::vector<std::string> grounds(const ResultFiles& f) {
   std::vector<std::string> out;
-  if (search::advice_of(f.problem, f.result) == Advice::Texture) out = decision_grounds(f);
+  if (search::advice_of(f.problem, f.result) == Advice::Texture) {
+    out = decision_grounds(f);
+    if (std::string other = other_rule_text(f); !other.empty()) out.push_back(std::move(other));
+  }
   if (std::string film = film_text(f); !film.empty()) out.push_back(std::move(film));
   out.push_back(conditions_text(f) + skin_text(f));
   out.push_back(model_text(f));

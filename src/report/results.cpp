@@ -218,6 +218,8 @@ class Writer {
       out["belief"] = std::move(prospect);
     if (f_.result.flat)
       out["flat"] = {
+          // of the film and the finish of what is recommended
+          {"finish_of", f_.result.finalists[f_.result.best].folder},
           {"objectives", score_json(*f_.result.flat)},
           {"worst_modulation", worst_json(*f_.result.flat)},
           {"difference", differences(d.confirmed, *f_.result.flat)},

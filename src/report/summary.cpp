@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "design/families.h"
 #include "metrics/shown.h"
 #include "report/decision.h"
 #include "report/recommendation.h"
@@ -37,9 +38,10 @@ std::string heading(const StudyObjective& o) {
 std::string rule_text(const ResultFiles& f) {
   const Decision& d = f.result.decision;
   if (d.made() && f.result.best == d.best) {
-    return f.problem.belief_risk().regret
-               ? "the least expected regret over belief"
-               : "the best over belief by \"" + f.study.risk.belief + "\"";
+    return (f.problem.belief_risk().regret
+                ? "the least expected regret over belief"
+                : "the best over belief by \"" + f.study.risk.belief + "\"") +
+           of_the_sure_text(f);
   }
   if (!f.pick.empty() && f.pick != "worst") return "picked by \"" + f.pick + "\"";
   return f.problem.driven() ? "the highest worst modulation over fingers and humidity"

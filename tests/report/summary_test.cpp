@@ -10,6 +10,7 @@
 
 #include "base/constants.h"
 #include "base/files.h"
+#include "base/text.h"
 #include "report/grounds.h"
 #include "report/receipts.h"
 #include "report/recommendation.h"
@@ -310,6 +311,26 @@ TEST(BuildSheet, SaysWhyAPlaceDoesNotHoldAndTheAlternative) {
       << as_read(recommendation(run.files()));
 }
 
+// Where the worst modulation decides, what it costs in the other objectives is said.
+TEST(BuildSheet, NamesTheDesignThatAllObjectivesAlikeWouldChoose) {
+  Searched run;
+  FinalDesign other = run.result.finalists[0];
+  other.folder = "front/02";
+  other.confirmed.values = {0.48, 0.1}, other.confirmed.worst = 0.2;
+  run.result.finalists[1] = other;
+  const auto said = [&] { return as_read(join_names(grounds(run.files()), "\n")); };
+  const std::string sentence =
+      "By the rule \"knee\", which weighs all objectives alike, design 02 would be built: "
+      "mean(modulation) 0.480 in place of 0.500, variation(modulation) 0.100 in place of 0.300, a "
+      "worst modulation of 0.200 in place of 0.250.";
+  EXPECT_NE(said().find(sentence), std::string::npos) << said();
+  run.pick = "knee";
+  EXPECT_EQ(said().find("By the rule"), std::string::npos);
+  run.pick.clear();
+  run.result.finalists[1].confirmed.values = {0.4, 0.3};
+  EXPECT_EQ(said().find("By the rule"), std::string::npos);
+}
+
 // Which finger, what its natural skin does, what no ± holds, and a worst case that nobody feels.
 TEST(BuildSheet, SaysWhatItRestsOn) {
   Searched run;
@@ -547,7 +568,8 @@ TEST(RunFolder, ItsTablesHaveEachNumberUnderItsHead) {
   expect_same(metrics["stability"],
               {{"on_front", 2}, {"variants", 2}, {"stable", true}, {"why", ""}}, "stable");
   expect_same(metrics["flat"],
-              {{"objectives",
+              {{"finish_of", "front/01"},
+               {"objectives",
                 {{"mean(modulation)", value(0.4, 0.013, true)},
                  {"variation(modulation)", value(0.35, 0.023, false)}}},
                {"worst_modulation", 0.2},

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/error.h"
@@ -266,9 +267,14 @@ TEST(Decision, WhatIsRecommendedKeepsItsLimitsWithTheProbabilityAskedFor) {
   const BelievingRun sure(study, "decision_sure", weak);
   EXPECT_LE(sure.best().unit[0], 0.3);
   EXPECT_TRUE(sure.decision().sure(0.9));
+  const auto among = [](const BelievingRun& run) {
+    return report::as_read(report::of_the_sure_text(run.files()));
+  };
+  EXPECT_EQ(among(sure), " of those that keep every limit with probability 90 % or more");
   study.risk.limits = 0.6;
   const BelievingRun bold(study, "decision_bold", weak);
   EXPECT_GT(bold.best().unit[0], 0.3);
+  EXPECT_EQ(among(bold), "");
   EXPECT_NEAR(bold.decision().designs[bold.run.result.best].p_limits, 0.7, 1e-12);
 }
 
