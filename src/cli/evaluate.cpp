@@ -6,6 +6,7 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "base/error.h"
@@ -106,6 +107,7 @@ int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& des
                    const Fidelity& fidelity, bool json, bool look, bool model, bool parameters) {
   check(sweep, design);
   std::vector<SweepRun> runs;
+  std::set<std::string> lines;  // without the number itself
   if (!json) std::cout << sweep_head(sweep.path, look);
   for (const double value : sweep.values) {
     Design changed = design;
@@ -116,6 +118,7 @@ int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& des
       add_parameter_errors(response, scene_of(changed), changed.texture, fidelity);
     if (look) response.appearance = appearance_of(changed);
     const std::string shown = format_quantity(value, sweep.unit);
+    lines.insert(sweep_line("", response));
     if (json) {
       context.note(fmt::format("{} = {}", sweep.path, shown));
       runs.push_back({value, std::move(response)});
@@ -124,6 +127,10 @@ int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& des
     }
   }
   if (json) std::cout << sweep_json(sweep.path, runs) << '\n';
+  if (lines.size() == 1)
+    context.note("warning: " + sweep.path +
+                 " moves nothing here: it is the same answer at every value, as where another key "
+                 "goes before it (`papilla explain`)");
   return kSuccess;
 }
 

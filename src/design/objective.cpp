@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/text.h"
 #include "design/study_file.h"
 #include "metrics/metrics.h"
 

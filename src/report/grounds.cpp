@@ -66,10 +66,12 @@ namespace {
 
 // Which fingers and weathers the numbers are for.
 std::string conditions_text(const ResultFiles& f) {
+  const Design built = built_design(f);
   std::vector<std::string> states;
   double least = kInfinity, most = 0;
   for (std::size_t t = 0; t < f.problem.nominal_tasks(); ++t) {
-    const Finger& finger = f.problem.tasks()[t].finger;
+    const Finger finger =
+        scene_of(search::task_design(f.study, built, f.problem.tasks()[t])).finger;
     const std::string state = f.study.design.counterface.in_place()
                                   ? "the pin \"" + finger.name + "\" in place of a finger"
                                   : state_text(finger.state);
@@ -83,7 +85,7 @@ std::string conditions_text(const ResultFiles& f) {
   const std::string load = least == most
                                ? said("the", least)
                                : said("the least", least) + " to " + said("the largest", most);
-  const std::string drive = drive_text(built_design(f).drive);
+  const std::string drive = drive_text(built.drive);
   return fmt::format("Judged for {} at {} relative humidity under {}{}.",
                      join_names(states, " and "),
                      humidity_text(f.study.design.environment.relative_humidity), load,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "forward/forward.h"
 #include "metrics/metrics.h"
 #include "search/task.h"
 
@@ -24,13 +25,14 @@ std::vector<Variant> variants(const StudyProblem& problem) {
   const Pin* pin = problem.study().design.counterface.in_place();
   // The water of the skin and its friction: what a person's finger has that a degreased one has
   // not.
-  const bool clean = problem.tasks().front().finger.state == FingerState::Clean;
+  const Finger first =
+      task_design(problem.study(), problem.study().design, problem.tasks().front()).finger;
+  const bool clean = first.state == FingerState::Clean;
   if (!pin)
     out.push_back({clean ? "natural skin, not degreased" : "degreased skin", 0, [clean](Scene& s) {
                      s.finger.state = clean ? FingerState::Natural : FingerState::Clean;
                    }});
-  const Scene first{{}, problem.tasks().front().finger, {}, {}, {}};
-  if (!first.finger.water.volume.empty() && !pin) {
+  if (!first.water.volume.empty() && !pin) {
     out.push_back({"first droplet step 50 nm", 0, [](Scene& s) { s.model.droplet_step = 50e-9; }});
     out.push_back(
         {"first droplet step 800 nm", 0, [](Scene& s) { s.model.droplet_step = 800e-9; }});

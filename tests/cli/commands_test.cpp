@@ -341,6 +341,13 @@ TEST(Evaluate, ASweepHasRoundValuesAndIsCheckedBeforeItStarts) {
   const std::string one = kDraft + "--set 'environment.relative_humidity=[\"50 %\"]' ";
   const Outcome depths = place.run("evaluate " + kSample + one + "--sweep texture.depth=0..1000:3");
   EXPECT_EQ(depths.status, 0) << depths.err;
+  EXPECT_EQ(depths.err.find("moves nothing"), std::string::npos) << depths.err;
+  const Outcome deaf = place.run("evaluate " + kSample + one +
+                                 "--set 'surface.shear_strength=2 MPa' --sweep "
+                                 "'finger.macro.shear_strength=5 MPa..13 MPa:2'");
+  EXPECT_NE(deaf.err.find("warning: finger.macro.shear_strength moves nothing here"),
+            std::string::npos)
+      << deaf.err;
   EXPECT_NE(depths.out.find("  500 nm "), std::string::npos) << depths.out;
   EXPECT_NE(depths.out.find("  1000 nm "), std::string::npos) << depths.out;
   const Outcome wide = place.run("evaluate " + kSample + one + "--sweep texture.diameter=1..8:3");
