@@ -254,7 +254,7 @@ std::string other_rule_text(const ResultFiles& f) {
   const bool by_knee =
       f.pick == "knee" || (decision.made() && decision.rule.kind == PickRule::Kind::Knee);
   if (objectives.size() < 2 || front.size() < 2 || !f.problem.driven() || by_knee) return {};
-  const std::size_t other = search::pick_design("knee", front, decision.ranges);
+  const std::size_t other = decision.made() ? decision.by_knee : search::pick_design("knee", front);
   if (other == f.result.best || f.result.best >= front.size()) return {};
   const std::string name = design_name(f.result.finalists[other].folder);
   const Score &there = f.result.finalists[other].confirmed,

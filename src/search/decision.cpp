@@ -336,6 +336,12 @@ Decision decide(const StudyProblem& problem, const std::vector<FinalDesign>& fin
   const double limits = problem.study().risk.limits;
   out.designs = prospects(worth, problem.belief_risk());
   out.best = chosen(out.designs, limits);
+  out.by_knee =
+      out.rule.kind == PickRule::Kind::Knee
+          ? out.best
+          : chosen(prospects(member_worth(problem, front, {PickRule::Kind::Knee}, out.ranges),
+                             problem.belief_risk()),
+                   limits);
   out.settled = settled_skins(worth, problem.belief_risk(), limits);
   out.best_worth = best_worth(worth);
   for (const MemberWorth& of : by_objective) {

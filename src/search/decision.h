@@ -27,6 +27,7 @@ struct Decision {
   std::size_t best = 0;                        // of them
   double best_worth = 0;                       // what the best at each member is worth, on average
   std::size_t nominal = 0;                     // the best by the numbers of the fit
+  std::size_t by_knee = 0;                     // what the knee would choose over belief
   SettledSkins settled;                        // of what would be chosen then
   MemberWorth worth;                           // what all this was made of
   std::vector<Reversal> hypotheses;            // one each; empty where all members have the same

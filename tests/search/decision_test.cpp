@@ -183,6 +183,8 @@ TEST(Decision, TheKneeDividesByWhatDesignsDifferByOverBelief) {
   ASSERT_GT(most, least);
   EXPECT_NEAR(d.ranges[1].width, (0.7 * 0.4 + 0.3 * 0.2) * (most - least), 1e-9);
   for (const Prospect& p : d.designs) EXPECT_LT(p.regret, 2);
+  EXPECT_EQ(d.by_knee, d.best);
+  EXPECT_EQ(a.decision().by_knee, d.best);  // where another rule decides
   a.run.result.decision = d;
   EXPECT_NE(report::as_read(report::decision_text(a.files())).find("variation(modulation) 0."),
             std::string::npos);
