@@ -48,9 +48,12 @@ Advice advice_of(const StudyProblem& problem, const OptimiseResult& r) {
   if (!r.has_best() || !best_of(r).feasible) return Advice::Nothing;
   const bool textured = facts(best_of(r).design.texture).relief.present;
   if (textured && !r.flat) {
-    const bool pulled_in =
-        r.flat_unanswered && r.flat_unanswered->kind == TaskStatus::Kind::NoEquilibrium;
-    return pulled_in ? Advice::Texture : Advice::Unknown;
+    // Pulled in, or without what is asked for, as a film that breaks down before the modulation is
+    // reached: the texture is what has it. What ran out of time or failed says nothing.
+    using Kind = TaskStatus::Kind;
+    const bool cannot = r.flat_unanswered && (r.flat_unanswered->kind == Kind::NoEquilibrium ||
+                                              r.flat_unanswered->kind == Kind::NotDefined);
+    return cannot ? Advice::Texture : Advice::Unknown;
   }
   const auto beats = [&](const Score& design, const FinalDesign& other) {
     return !no_better(problem.objectives(), design, other.confirmed) ||

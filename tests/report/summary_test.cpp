@@ -258,6 +258,8 @@ TEST(BuildSheet, SaysWhatTheTextureGainsAndItsTolerances) {
                       "% RH: pull-in: no equilibrium short of a closed gap)."),
             std::string::npos)
       << lead;
+  unanswered.kind = TaskStatus::Kind::NotDefined;  // a film that breaks down below that voltage
+  EXPECT_EQ(advice_of(costly.problem, costly.result), Advice::Texture);
   costly.result.finalists[0].feasible = false;
   EXPECT_EQ(advice_of(costly.problem, costly.result), Advice::Nothing);
 }
