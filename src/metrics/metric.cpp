@@ -66,7 +66,7 @@ const std::vector<Row>& rows() {
         .unit = "N",
         .doc = "capillary force on the finger, drive off; never below 0",
         .better = Better::Lower,
-        .resolution = 1e-4}},  // .1 mN: below what force sensors under fingers resolve
+        .resolution = 1e-4}},  // a choice: below what force sensors resolve
       {Compliance{},
        {"compliance", "m/Pa", "indentation since first touch over patch pressure",
         Better::Neither}},
@@ -89,7 +89,7 @@ const std::vector<Row>& rows() {
           "standard deviation over mean of the light of equal subpixels of view.panel (pixel power "
           "deviation)"),
       look("colour_shift", Better::Lower, &Look::colour_shift,
-           "CIE 1976 u'v' distance of the undeviated light from the source", 0.001),
+           "CIE 1976 u'v' distance of the undeviated light from the source", 0.001),  // a choice
       {SourceAmplitude{},
        {"drive.amplitude", "V",
         "amplitude of the source: the design's; under current control what the "
