@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <mutex>
-#include <tuple>
 #include <utility>
 
+#include "base/cache.h"
 #include "base/error.h"
 #include "base/random.h"
 #include "geometry/io/files.h"
 #include "geometry/plane.h"
+#include "geometry/texture.h"
 
 namespace papilla::geometry {
 namespace {
@@ -31,20 +31,19 @@ double value_at(const Heightmap& h, double x, double y) {
          t * ((1 - s) * h(ix, jy) + s * h(jx, jy));
 }
 
-// The file is read and mended once: a search asks for the same map thousands of times. One that was
-// written anew is another.
+// The file is read and mended once: a search asks for the same map thousands of times, and threads
+// that ask together wait for one of them to read it. One that was written anew is another. Those
+// that were asked for last are kept: programs draw maps without end.
 std::shared_ptr<const Scan> scan_of(const ScanSource& source) {
-  using Key = std::tuple<ScanSource, std::filesystem::file_time_type, std::uintmax_t>;
+  constexpr std::size_t kMostMaps = 256;
+  constexpr double kMostBytes = 1 << 30;  // of their files
+  using Key = std::pair<ScanSource, MapVersion>;
   static std::mutex mutex;
-  static std::map<Key, std::shared_ptr<const Scan>> cache;
-  std::error_code ignored;  // reading says what is wrong
-  const std::string file = map_name(source.file).file;
-  const auto time = std::filesystem::last_write_time(file, ignored);
-  const auto size = std::filesystem::file_size(file, ignored);
-  std::lock_guard lock(mutex);
-  auto& known = cache[{source, time, size}];
-  if (!known) known = std::make_shared<const Scan>(read_scan(source));
-  return known;
+  static Cache<Key, Scan> cache(kMostMaps, kMostBytes);
+  const MapVersion version = map_version(source.file);
+  const std::lock_guard lock(mutex);
+  return cache.get({source, version}, static_cast<double>(version.size),
+                   [&] { return std::make_shared<const Scan>(read_scan(source)); });
 }
 
 // Cut with its lower corner at (x0, y0) [m], less a plane; the upper bands of width bx, by are
@@ -110,6 +109,20 @@ bool same_pixels(const Grid& a, const Grid& b) {
 constexpr double kSeam = 0.1;  // of a patch's side: the band that is blended
 
 }  // namespace
+
+MapVersion map_version(const std::string& file) {
+  std::error_code ignored;  // reading says what is wrong
+  const std::string path = map_name(file).file;
+  return {std::filesystem::last_write_time(path, ignored),
+          std::filesystem::file_size(path, ignored)};
+}
+
+std::vector<MapVersion> map_versions(const Texture& texture) {
+  const TextureFacts known = facts(texture);
+  std::vector<MapVersion> out;
+  for (const ScanSource& source : known.scans) out.push_back(map_version(source.file));
+  return out;
+}
 
 ScanChanges changes_of_map(const ScanSource& source) { return scan_of(source)->changes; }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,20 @@
 #include "geometry/scan.h"
 
 namespace papilla::geometry {
+
+struct Texture;
+
+// When the file of a map was written and its length: where they differ, a path names another map.
+// What a file that is not there has, is that of none.
+struct MapVersion {
+  std::filesystem::file_time_type written{};
+  std::uintmax_t size = 0;
+
+  bool operator==(const MapVersion&) const = default;
+};
+MapVersion map_version(const std::string& file);  // as ScanSource::file
+// Of the maps that a texture is made of, in their order: what of it its keys do not say.
+std::vector<MapVersion> map_versions(const Texture& texture);
 
 // From the middle of a map to the middle of a patch of it [m].
 struct MapPlace {

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -18,13 +19,15 @@ DoseCurve read_dose_curve(const std::string& path) {
   std::istringstream in(read_bytes(path, 1 << 20));
   DoseCurve out;
   std::string line;
+  bool heading = false;
   for (int number = 1; std::getline(in, line); ++number) {
+    if (line.ends_with('\r')) line.pop_back();
     if (line.empty() || line.front() == '#') continue;
     double depth = 0, grey = 0;
     char rest = 0;
     if (std::sscanf(line.c_str(), "%lf , %lf %c", &depth, &grey, &rest) != 2) {
       const bool other_separator = line.find_first_of(";\t") != std::string::npos;
-      if (number == 1 && !other_separator) continue;  // a heading
+      if (!std::exchange(heading, true) && out.depth.empty() && !other_separator) continue;
       throw InputError(
           fmt::format("{}:{}: expected depth_nm,grey{}", path, number,
                       other_separator ? "; the separator is a comma, decimals a point" : ""));

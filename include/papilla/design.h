@@ -66,7 +66,8 @@ class Design {
   static Design parse(const std::string& toml, const Heights& heights);
 
   // The design with other values. It is read anew, all values together, so that those which go
-  // together (a diameter and its period) are given in one call.
+  // together (a diameter and its period) are given in one call. Of another kind ("texture.type")
+  // it has what is given here alone.
   Design with(const Values& values) const;
   Design with(const std::string& path, const std::string& value) const;
 

@@ -38,7 +38,8 @@ struct Ranking {
   std::string table, json;  // of the command
 };
 
-// Throws InputError, Stopped.
+// Throws InputError, also without `states` for designs whose fingers are in different ones;
+// Stopped.
 Ranking rank(const std::vector<Design>& designs, const RankOptions& options = {});
 
 }  // namespace papilla::api

@@ -51,7 +51,9 @@ struct RunOptions {
 struct FoundDesign {
   std::vector<double> values;  // of the variables, SI
   Judgement searched, confirmed;
-  std::string folder;  // of design.toml, below the run's; empty: not on the front
+  // Of design.toml, below the run's: "front/03", "best" where no design keeps every limit; empty:
+  // its values alone are kept.
+  std::string folder;
 };
 
 struct RunResult {

@@ -167,7 +167,8 @@ class Design:
         """The design with other values: ``d.with_({"texture.depth": "262 nm"})``, ``d.with_(**{...})``.
 
         All values are read together, so that those which go together (a diameter and its period) are given in one
-        call. The title says what was changed, unless it is given. Raises InputError.
+        call. Of another kind, ``"texture.type"``, it has what is given here alone. The title says what was changed,
+        unless it is given. Raises InputError.
         """
         changes = v.settings({**(values or {}), **by_name})
         changed = self._of(self._inside.with_(changes))
@@ -358,11 +359,15 @@ def _without_version(values: Mapping[str, Any]) -> Mapping[str, Any]:
     return {key: value for key, value in values.items() if not (key == "schema_version" and value == 1)}
 
 
+_COMMENT = re.compile(r'((?:[^"#]|"(?:[^"\\]|\\.)*")*).*')
+"""A line of TOML and its comment, which no # within quotes begins."""
+
+
 def _values_alone(design: Design) -> list[str]:
     # The file of heights that were drawn is one of the moment.
-    lines = design.to_toml().splitlines()
+    lines = design.to_toml().split("\n")
     drawn = design._inside.drawn() is not None
-    return [line.split("#")[0].rstrip() for line in lines if not (drawn and line.startswith("file = "))]
+    return [_COMMENT.sub(r"\1", line).rstrip() for line in lines if not (drawn and line.startswith("file = "))]
 
 
 def _parsed(toml: str) -> Design:

@@ -119,7 +119,9 @@ class FoundDesign:
     confirmed: Judgement
     """At the study's accuracy, on skins that the search has not seen."""
     folder: str
-    """Of design.toml; empty: not on the front."""
+    """Of design.toml; empty: only its values are kept."""
+    on_front: bool
+    """Whether it keeps every limit and no other beats it."""
 
     def load(self) -> Design:
         """The design as its folder has it, or of its values where it has none."""
@@ -170,7 +172,8 @@ class Run:
         self.evaluations: int = told["evaluations"]
         self.finalists: list[FoundDesign] = [
             FoundDesign(Point(study, row["values"]), _told_judgement(row["searched"]), _told_judgement(row["confirmed"]),
-                        os.path.join(folder, row["folder"]) if row["folder"] else "") for row in told["finalists"]]
+                        os.path.join(folder, row["folder"]) if row["folder"] else "",
+                        row["folder"].startswith("front/")) for row in told["finalists"]]
         """By the first objective, best first."""
         self._best: int = told["best"]
 
@@ -203,15 +206,15 @@ class Run:
                 known = found.confirmed.ok
                 row[objective.name] = found.confirmed.values[i] if known else float("nan")
                 row[objective.name + "_error"] = found.confirmed.errors[i] if known else float("nan")
-            rows.append({**row, "on_front": found.folder.startswith("front/"), "ok": found.confirmed.ok, "folder": found.folder})
+            rows.append({**row, "on_front": found.on_front, "ok": found.confirmed.ok, "folder": found.folder})
         frame = pandas.DataFrame(rows)
         frame.attrs["units"] = {variable.path: variable.unit for variable in self.study.variables}
         return frame
 
     @property
     def front(self) -> list[FoundDesign]:
-        """The finalists that no other beats."""
-        return [found for found in self.finalists if found.folder.startswith("front/")]
+        """The finalists that keep every limit and that no other beats."""
+        return [found for found in self.finalists if found.on_front]
 
     @property
     def best(self) -> FoundDesign:

@@ -70,8 +70,8 @@ def rank(designs: Sequence[Design], by: str = "", *, weights: Sequence[float] = 
     """Which design is better, and how sure that is: ``papilla rank``.
 
     by: criteria, "friction:low,variation(modulation):low"; empty: modulation, of undriven designs friction and
-    adhesion. weights: of the criteria, for one score. states: "clean,natural,wet"; empty: the finger's own. names: of
-    the designs in messages. max_skins: per design and state. progress: called with a text.
+    adhesion. weights: of the criteria, for one score. states: "clean,natural,wet"; empty: the one that all
+    fingers are in. names: of the designs in messages. max_skins: per design and state. progress: called with a text.
 
     Raises InputError, KeyboardInterrupt. Source: docs/theory/ranking.md.
     """

@@ -43,7 +43,8 @@ def _brief(value: Any) -> str:
 # Sections of a study: their numbers are written with units, as in its file.
 STUDY_SECTIONS = {"design_space", "objective", "constraints", "population", "scenarios", "scatter",
                   "search"}
-_KEY = re.compile(r"[A-Za-z0-9_.() +-]+")
+_KEY = re.compile(r"[A-Za-z0-9_.() =+-]+")
+_ARGUMENTS = re.compile(r"\([^()]*\)")
 
 
 def si(value: Quantified, unit: str, key: str) -> float:
@@ -166,9 +167,17 @@ def settings(values: Mapping[str, Any] | None) -> list[tuple[str, str]]:
     return list(_flat("", values))
 
 
+def _is_key(name: str) -> bool:
+    """Whether a text may be one: a = stands among the arguments of a metric alone, voltage_for(modulation = 0.5)."""
+    outside, found = name, 1
+    while found:
+        outside, found = _ARGUMENTS.subn("", outside)
+    return _KEY.fullmatch(name) is not None and "=" not in outside
+
+
 def _flat(prefix: str, values: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     for name, value in values.items():
-        if not isinstance(name, str) or not _KEY.fullmatch(name):
+        if not isinstance(name, str) or not _is_key(name):
             raise wrong(prefix + str(name), "expected the name of a key")
         key = prefix + name
         if isinstance(value, Mapping):

@@ -186,6 +186,26 @@ def test_a_fitted_finger_replaces_that_of_a_design() -> None:
         fit.apply("a3h350.toml")  # type: ignore[arg-type]
 
 
+def test_another_kind_has_nothing_of_the_one_before() -> None:
+    holes = pp.Design({"base": "m3_samples/common.toml",
+                       "texture": {"type": "hole_array", "period": "6 um", "diameter": "3 um", "depth": "350 nm"}})
+    flat = holes.with_({"texture.type": "flat"})
+    assert not [key for key in flat.to_dict() if key.startswith("texture.")]
+    loaded = pp.Design.load("m3_samples/a3h350.toml").with_({"texture.depth": "262 nm"}).with_({"texture.type": "flat"})
+    assert not [key for key in loaded.to_dict() if key.startswith("texture.")]
+    map_then_flat = pp.Design.from_heights(drawn(16), "12 um", {"base": "m3_samples/common.toml"}).with_({"texture.type": "flat"})
+    assert map_then_flat == pp.Design.parse(map_then_flat.to_toml()) == pickle.loads(pickle.dumps(map_then_flat))
+
+
+def test_a_title_with_a_hash_is_told_from_another() -> None:
+    d = pp.Design.load("m3_samples/flat.toml")
+    three = d.with_({"title": "Sample #3"})
+    assert three != d.with_({"title": "Sample #4"}) and three == pp.Design.parse(three.to_toml())
+    assert d.with_({"title": "a  # b"}) != d.with_({"title": "a  # c"})
+    assert d.with_({"title": "a  # b"}) == pp.Design.load("m3_samples/flat.toml", {"title": "a  # b"})
+    assert d.with_({"title": 'a "#" 3'}) != d.with_({"title": 'a "#" 4'})
+
+
 def test_designs_are_keys_of_dicts() -> None:
     d = pp.Design.load("m3_samples/a3h350.toml")
     again = pickle.loads(pickle.dumps(d))

@@ -35,6 +35,30 @@ def test_ask_and_tell_find_a_planted_best() -> None:
     assert best[1].design["texture.depth"] == best[1]["texture.depth"]
 
 
+def test_a_range_replaces_that_of_the_file(tmp_path: pathlib.Path) -> None:
+    file = tmp_path / "study.toml"
+    file.write_text('''schema_version = 1
+base = "m3_samples/a3h350.toml"
+[design_space]
+"texture.period" = ["5 um", "12 um"]
+[objective]
+maximise = "mean(modulation)"
+''', encoding="utf-8")
+    change = {"design_space": {"texture.period": ["5 um", "8 um"]}}
+    for study in (pp.Study.load(file, change), pp.Study({"base": str(file), **change})):
+        assert [(x.path, x.low, x.high) for x in study.variables] == [("texture.period", 5e-6, 8e-6)]
+
+
+def test_a_metric_with_arguments_is_limited() -> None:
+    limited = {**STUDY, "constraints": {"worst(voltage_for(modulation = 0.5))": "150 V"}}
+    assert len(pp.Study(limited).variables) == 2
+    with pytest.raises(pp.InputError, match="voltage_for"):
+        pp.Study({**STUDY, "constraints": {"worst(voltage_for(modulation = 0.5))": "150 N"}})
+    for name in ("worst(modulation) = 1", "worst(modulation)=(1)", "a = 0.5"):
+        with pytest.raises(pp.InputError, match="expected the name of a key"):
+            pp.Study({**STUDY, "constraints": {name: 0.3}})
+
+
 def test_two_searches_of_one_study_ask_alike() -> None:
     asked = []
     for study in (pp.Study(STUDY), pickle.loads(pickle.dumps(pp.Study(STUDY)))):
@@ -174,6 +198,14 @@ def test_designs_are_asked_for_a_few_at_a_time() -> None:
 
 
 @pytest.mark.slow
+def test_a_run_in_which_every_design_breaks_a_limit_has_no_front(tmp_path: pathlib.Path) -> None:
+    study = pp.Study({**STUDY, "constraints": {"haze": "1e-6 %"}, "search": {"evaluations": 6, "seed": 3}})
+    run = study.optimize(tmp_path / "run")
+    assert not run.any_feasible and run.front == [] and run.finalists and run.best.folder
+    assert not run.to_dataframe()["on_front"].any()
+
+
+@pytest.mark.slow
 def test_a_run_is_opened_again_from_its_folder(tmp_path: pathlib.Path) -> None:
     run = pp.Study({**KINDS, "search": {"evaluations": 16, "seed": 3}}).optimize(tmp_path / "run")
     before = {path: path.stat().st_mtime_ns for path in (tmp_path / "run").rglob("*")}
@@ -186,7 +218,8 @@ def test_a_run_is_opened_again_from_its_folder(tmp_path: pathlib.Path) -> None:
     assert again.best.load() == run.best.load() and again.table == run.table
     frame = again.to_dataframe()
     assert list(frame["mean(modulation)"]) == [f.confirmed.values[0] for f in run.finalists]
-    assert set(frame["texture.type"]) <= {"hole_array", "pillar_array"} and frame["on_front"].any()
+    assert set(frame["texture.type"]) <= {"hole_array", "pillar_array"}
+    assert run.front and frame["on_front"].tolist() == [f in run.front for f in run.finalists]
     searched = next(f for f in run.finalists if len(f.searched.values))
     judged = run.study.judge(dict(searched.point))
     assert judged.values == pytest.approx(searched.searched.values), "a search judges its designs so"

@@ -1,6 +1,9 @@
 #include "papilla/design.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <string_view>
 #include <system_error>
 
 #include "api/inside.h"
@@ -19,6 +22,48 @@ std::shared_ptr<const Design::Inside> loaded(Design::Inside inside) {
                                        : read_study(inside.file, changes);
     return std::make_shared<const Design::Inside>(std::move(inside));
   });
+}
+
+std::string path_of(const std::pair<std::string, std::string>& value) {
+  const std::string& path = value.first;
+  return path.ends_with(':') ? path.substr(0, path.size() - 1) : path;
+}
+
+// A name with the blanks and quotes around it, as it may be given, taken away.
+std::string bare(const std::string& name) {
+  const std::size_t begin = name.find_first_not_of(" \"'"), end = name.find_last_not_of(" \"'");
+  return begin == std::string::npos ? "" : name.substr(begin, end + 1 - begin);
+}
+
+// Whether a path is a key of the section's kind or lies within a list of it: the sections within
+// outlive the kind, as the pen that a counterface has (config/reader.h).
+bool goes_with_kind(const std::string& path, const std::string& section) {
+  if (!path.starts_with(section) || path == section + "type") return false;
+  const std::size_t dot = path.find('.', section.size());
+  return dot == std::string::npos ||
+         (dot + 1 < path.size() && path[dot + 1] >= '0' && path[dot + 1] <= '9');
+}
+
+// Takes away what was given for a kind that the new values put another in the place of. The kinds
+// themselves stay: each clears what the file has for the one before.
+void drop_of_other_kinds(const Design::Inside& before, const Design::Values& values,
+                         Design::Inside& changed) {
+  std::optional<Document> known;  // made where a kind is named at all
+  for (const auto& value : values) {
+    const std::string path = path_of(value);
+    if (!path.ends_with(".type")) continue;
+    if (!known) known.emplace(parse_toml(resolved_toml(before.study), "design.toml"));
+    const Node* kind = known->take(path);
+    if (!kind || !kind->is_text() || kind->text == bare(value.second)) continue;
+    const std::string section = path.substr(0, path.size() - std::string_view("type").size());
+    std::erase_if(changed.values,
+                  [&](const auto& earlier) { return goes_with_kind(path_of(earlier), section); });
+  }
+  const auto names_map = [&](const auto& value) {
+    return value.second.find(toml_string(changed.drawn->file())) != std::string::npos;
+  };
+  if (changed.drawn && std::none_of(changed.values.begin(), changed.values.end(), names_map))
+    changed.drawn = nullptr;
 }
 
 }  // namespace
@@ -91,9 +136,12 @@ Design Design::parse(const std::string& toml, const Heights& heights) {
 }
 
 Design Design::with(const Values& values) const {
-  Inside changed{inside_->file, inside_->text, inside_->values, inside_->drawn, {}};
-  changed.values.insert(changed.values.end(), values.begin(), values.end());
-  return Design(loaded(std::move(changed)));
+  return across([&] {
+    Inside changed{inside_->file, inside_->text, inside_->values, inside_->drawn, {}};
+    drop_of_other_kinds(*inside_, values, changed);
+    changed.values.insert(changed.values.end(), values.begin(), values.end());
+    return Design(loaded(std::move(changed)));
+  });
 }
 
 Design Design::with(const std::string& path, const std::string& value) const {

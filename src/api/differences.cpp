@@ -65,7 +65,8 @@ std::vector<Sensitivity> sensitivity(const Design& design, const std::string& me
     if (!(options.step > 0 && options.step < 1))
       throw wrong("step", "expected more than 0 and less than 1");
     const MetricExpression expression = parse_own_metric(metric);
-    const rooms::Design own = at_options(design, options.evaluate);
+    // At its own target each end would choose its own grid and skins.
+    const rooms::Design own = at_options(design, common(options.evaluate, design));
     Watch watch(options.evaluate.progress, options.evaluate.stop);
     std::vector<Sensitivity> out;
     for (const std::string& key : options.keys.empty() ? texture_numbers(own) : options.keys) {

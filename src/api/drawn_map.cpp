@@ -38,14 +38,16 @@ void require_square(const Heights& h) {
 
 }  // namespace
 
-DrawnMap::DrawnMap(Heights heights) : heights_(std::move(heights)), file_(new_file()) {
+DrawnMap::DrawnMap(Heights heights)
+    : heights_(std::move(heights)), file_(new_file()), maker_(::getpid()) {
   const Heightmap map = heightmap_of(heights_);
   require_square(heights_);
   write_npy(file_, map);
 }
 
 DrawnMap::~DrawnMap() {
-  std::error_code ignored;  // a folder that someone else has emptied
+  if (::getpid() != maker_) return;  // a fork of it, whose parent still reads the file
+  std::error_code ignored;           // a folder that someone else has emptied
   fs::remove(file_, ignored);
 }
 

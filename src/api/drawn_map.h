@@ -24,6 +24,7 @@ class DrawnMap {
  private:
   Heights heights_;
   std::string file_;
+  int maker_;  // the process that wrote the file, and removes it
 };
 
 }  // namespace papilla::api

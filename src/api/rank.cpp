@@ -48,9 +48,9 @@ Ranking rank(const std::vector<Design>& designs, const RankOptions& options) {
     if (inside.names.empty()) {
       for (const rooms::Design& design : candidates) inside.names.push_back(design.title);
     }
-    if (inside.states.empty()) inside.states = {candidates.front().finger.state};
     std::vector<Regions> regions;
     for (const rooms::Design& design : candidates) regions.push_back({design});
+    if (inside.states.empty()) inside.states = {common_state(regions)};
     inside.parameters = inside.parameters || parameters_unknown(regions).empty();
     Watch watch({}, options.stop);
     const rooms::Ranking ranking = rooms::ranking_of(regions, inside);

@@ -40,22 +40,6 @@ LeastSquaresOptions fit_options(const Calibration& calibration, const Calibratio
   return fit;
 }
 
-// What Eq. accuracy.11 carries on: relative deviations; a number at its bound has none.
-std::vector<ParameterDeviation> deviations(const LeastSquaresFit& fit) {
-  std::vector<ParameterDeviation> out;
-  std::vector<std::size_t> known;
-  const std::size_t n = fit.parameters.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const ParameterFit& f = fit.parameters[i];
-    if (f.at_bound || !(f.se > 0) || !std::isfinite(f.se)) continue;
-    ParameterDeviation row{f.name, f.se / std::abs(f.value), {}};
-    for (const std::size_t j : known) row.correlation.push_back(fit.correlation[i * n + j]);
-    known.push_back(i);
-    out.push_back(std::move(row));
-  }
-  return out;
-}
-
 // The friction coefficient on flat glass without voltage, at each humidity of that sample.
 std::vector<double> flat_glass_friction(const Finger& finger, const Fidelity& fidelity) {
   Design flat = read_design(find_design("m3_samples/flat.toml"));
@@ -224,6 +208,23 @@ class Fit {
 };
 
 }  // namespace
+
+std::vector<ParameterDeviation> deviations(const LeastSquaresFit& fit) {
+  constexpr double kMost = 3;  // that a finger file takes; whoever has more is not known at all
+  std::vector<ParameterDeviation> out;
+  std::vector<std::size_t> known;
+  const std::size_t n = fit.parameters.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const ParameterFit& f = fit.parameters[i];
+    if (f.at_bound || !(f.se > 0) || !std::isfinite(f.se)) continue;
+    const double relative = f.value != 0 ? f.se / std::abs(f.value) : kMost;
+    ParameterDeviation row{f.name, std::min(relative, kMost), {}};
+    for (const std::size_t j : known) row.correlation.push_back(fit.correlation[i * n + j]);
+    known.push_back(i);
+    out.push_back(std::move(row));
+  }
+  return out;
+}
 
 CalibrationResult fit_finger(const Calibration& calibration, const CalibrationOptions& options) {
   return Fit(calibration, options).run();

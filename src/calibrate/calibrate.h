@@ -38,6 +38,10 @@ struct CalibrationOptions {
 CalibrationResult fit_finger(const Calibration& calibration,
                              const CalibrationOptions& options = {});
 
+// What Eq. accuracy.11 carries on: relative deviations, at most 300 %; a number at its bound has
+// none.
+std::vector<ParameterDeviation> deviations(const LeastSquaresFit& fit);
+
 // Chi squared per degree of freedom: 1 where the stated deviations are right.
 double misfit(const CalibrationResult& result);
 // False where the data are so far outside what the fitted finger explains that it is not to be

@@ -289,7 +289,7 @@ class CalibrationReader {
 
   // What a parameter's section says, beside the numbers.
   struct Given {
-    bool low = false, high = false, prior = false, spread = false;
+    bool low = false, high = false, prior = false, factor = false, sd = false;
   };
 
   void parameter(const std::string& name, const Node& node, const NumberField& field) {
@@ -340,11 +340,11 @@ class CalibrationReader {
     } else if (child.key == "factor") {
       if (!reads("", 1.0001, 1e6)) return;
       fit.prior_sd = std::log(value);
-      fit.logarithmic = given.spread = true;
+      fit.logarithmic = given.factor = true;
     } else if (child.key == "sd") {
       if (!reads(field.unit, 0, field.high)) return;
       fit.prior_sd = value;
-      given.spread = true;
+      given.sd = true;
     } else {
       document_.problem(
           child.key_place, where,
@@ -358,7 +358,9 @@ class CalibrationReader {
     const FitParameter& fit = p.fit;
     if (!given.low || !given.high) return "a parameter needs `low` and `high`";
     if (fit.low >= fit.high) return "expected low < high";
-    if (given.prior != given.spread) return "a prior needs its width: `factor` or `sd`";
+    if (given.factor && given.sd) return "a prior has one width: `factor` or `sd`";
+    if (given.prior != (given.factor || given.sd))
+      return "a prior needs its width: `factor` or `sd`";
     if (fit.logarithmic && fit.low <= 0) return "a prior by a factor needs low above 0";
     if (fit.start < fit.low || fit.start > fit.high) {
       return fmt::format("the finger's {} lies outside the bounds",

@@ -291,6 +291,10 @@ void Residuals::group_data() {
   for (const auto& [key, rows] : same) {
     const FrictionDatum& d = calibration_.data[rows.front()];
     MeasuredGroup s{read_design(d.design), rows, {}};
+    // The table has voltages, whatever drives the design.
+    s.design.drive.control = DriveControl::Voltage;
+    s.design.drive.current = 0;
+    s.design.drive.source_compliance = 0;
     s.design.drive.amplitude = d.amplitude;
     if (d.frequency > 0) s.design.drive.frequency = d.frequency;
     s.design.finger.load = d.load;

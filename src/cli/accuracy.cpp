@@ -7,6 +7,7 @@
 #include <iostream>
 #include <memory>
 
+#include "base/error.h"
 #include "base/files.h"
 #include "cli/commands.h"
 #include "design/study.h"
@@ -46,7 +47,24 @@ int run_coverage(const AccuracyCommand& c, const std::function<void(const std::s
   return kSuccess;
 }
 
+// Sweeps on one design, error bars on random scenes, or a page: what another of them takes is no
+// option of it.
+void require_one_kind(const AccuracyCommand& c) {
+  const AccuracyCommand unsaid;
+  const bool sweeps = !c.file.empty() || !c.overrides.empty() || c.no_levels ||
+                      c.grid != unsaid.grid || c.skins != unsaid.skins || c.finest != unsaid.finest;
+  const bool scenes = c.tight || c.first_scene != unsaid.first_scene;
+  if (!c.render.empty() && (sweeps || scenes || c.scenes > 0 || c.json || !c.out.empty()))
+    throw InputError("--render is the page of tables that are there: it takes no other option");
+  if (c.scenes > 0 && sweeps)
+    throw InputError(
+        "--scenes draws scenes of its own: FILE, --set, --grid, --skins, --finest and --no-levels "
+        "are of the sweeps on one design");
+  if (c.scenes == 0 && scenes) throw InputError("--tight and --first-scene are of --scenes");
+}
+
 int run(const Context& context, const AccuracyCommand& c) {
+  require_one_kind(c);
   if (!c.render.empty()) {
     std::cout << accuracy_page(c.render);
     return kSuccess;

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 
+#include "base/error.h"
 #include "base/files.h"
 #include "cli/commands.h"
 
@@ -32,6 +33,9 @@ int run_prices(const Context& context, const BenchCommand& c) {
 }
 
 int run(const Context& context, const BenchCommand& c) {
+  if (c.prices > 0 && (c.json || c.page || c.large))
+    throw InputError("--json, --page and --large are of the targets, not of --prices");
+  if (c.prices == 0 && c.first > 0) throw InputError("--first is of --prices");
   if (c.prices > 0) return run_prices(context, c);
   const std::vector<BenchRow> rows =
       bench({c.large, [&](const std::string& text) { context.note(text); }});

@@ -6,11 +6,12 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
-#include <set>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "base/watch.h"
 #include "cli/commands.h"
@@ -71,9 +72,11 @@ Sweep parse_sweep(const std::string& text, const Design& design) {
   std::string high = text.substr(dots + 2);
   int count = 5;
   if (const std::size_t colon = high.find(':'); colon != std::string::npos) {
-    count = std::atoi(high.c_str() + colon + 1);
+    const char* end = high.data() + high.size();
+    const auto [last, error] = std::from_chars(high.data() + colon + 1, end, count);
+    const bool whole = error == std::errc{} && last == end;
     high.erase(colon);
-    if (count < 2 || count > 10000) {
+    if (!whole || count < 2 || count > 10000) {
       throw InputError({Problem{"--sweep " + text, 0, 0, "", "expected a count of 2 to 10000"}});
     }
   }
@@ -103,22 +106,49 @@ void check(const Sweep& sweep, const Design& design) {
   if (!problems.empty()) throw InputError(problems);
 }
 
+// A voltage or a load that no state exists under has no answer.
+int status_of(const Response& response) {
+  const bool known =
+      std::all_of(response.points.begin(), response.points.end(), [&](const ResponsePoint& p) {
+        return response.driven ? p.knows_driven() : p.knows_undriven();
+      });
+  return known ? kSuccess : kWorkFailed;
+}
+
+// What a sweep would leave out.
+void require_sweepable(const EvaluateOptions& options) {
+  std::vector<std::string> given;
+  if (!options.out.empty()) given.push_back("--out");
+  if (!options.voltage_for.empty()) given.push_back("--voltage-for");
+  if (options.pull_in) given.push_back("--pull-in");
+  if (!options.accuracy.empty()) given.push_back("--accuracy");
+  if (options.check_field) given.push_back("--check-field");
+  if (!given.empty())
+    throw InputError("--sweep goes without " + join_names(given) +
+                     ": evaluate one value with it, --set PATH=VALUE");
+}
+
 int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& design,
                    const Fidelity& fidelity, bool json, bool look, bool model, bool parameters) {
   check(sweep, design);
   std::vector<SweepRun> runs;
-  std::set<std::string> lines;  // without the number itself
+  std::optional<Response> first;  // without belief, whose members round in their own way
+  bool moved = false;
+  int status = kSuccess;
   if (!json) std::cout << sweep_head(sweep.path, look);
   for (const double value : sweep.values) {
     Design changed = design;
     set_number(changed, sweep.path, value);
     Response response = evaluate(scene_of(changed), changed.texture, fidelity);
+    if (look) response.appearance = appearance_of(changed);
+    if (!first) first = response;
+    moved = moved || response.points != first->points ||
+            (look && Look(*response.appearance) != Look(*first->appearance));
+    status = std::max(status, status_of(response));
     if (model) add_belief(response, scene_of(changed), changed.texture, fidelity);
     if (parameters && response.belief.members.empty())
       add_parameter_errors(response, scene_of(changed), changed.texture, fidelity);
-    if (look) response.appearance = appearance_of(changed);
     const std::string shown = format_quantity(value, sweep.unit);
-    lines.insert(sweep_line("", response));
     if (json) {
       context.note(fmt::format("{} = {}", sweep.path, shown));
       runs.push_back({value, std::move(response)});
@@ -127,11 +157,11 @@ int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& des
     }
   }
   if (json) std::cout << sweep_json(sweep.path, runs) << '\n';
-  if (lines.size() == 1)
+  if (!moved)
     context.note("warning: " + sweep.path +
                  " moves nothing here: it is the same answer at every value, as where another key "
                  "goes before it (`papilla explain`)");
-  return kSuccess;
+  return status;
 }
 
 // The field rule against the 3-D potential on the first skin, on the pixels of the accuracy level.
@@ -147,17 +177,6 @@ void print_field_check(const Context& context, const Design& design, const Fidel
           row.method == "spread" ? "with spreading flux" : "by local columns", 100 * row.error));
     }
   }
-}
-
-// "5%" or "5 %": a relative standard error.
-double wanted_accuracy(const std::string& text) {
-  if (const auto q = parse_quantity(text); q && q->unit.empty() && q->value >= 1)
-    throw InputError(fmt::format("--accuracy: {0} has no unit; write {0}%", text));
-  const double target = parse_si(text, "%");
-  if (!(target > 0 && target < 1))
-    throw InputError(
-        fmt::format("--accuracy: expected more than 0 % and less than 100 %, got {}", text));
-  return target;
 }
 
 constexpr double kSecondsBetweenNotes = 10;
@@ -189,6 +208,7 @@ class LongEvaluation {
 };
 
 int evaluate_file(const Context& context, const EvaluateOptions& options) {
+  if (!options.sweep.empty()) require_sweepable(options);
   const Watch watch(LongEvaluation(context), nullptr);
   const Study study = options.design.study();
   const Design& design = study.design;
@@ -204,7 +224,7 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
 
   if (!options.out.empty()) make_folder(options.out);
   const Response response = evaluate_design(
-      design, {.target = options.accuracy.empty() ? 0 : wanted_accuracy(options.accuracy),
+      design, {.target = options.accuracy.empty() ? 0 : parse_si(options.accuracy, "%"),
                .model = !options.no_model,
                .parameters = options.parameters,
                .appearance = options.appearance,
@@ -227,12 +247,7 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
   else
     context.print(response_table(response));
   if (options.check_field && design.drive.driven()) print_field_check(context, design, fidelity);
-  // A voltage or a load that no state exists under has no answer.
-  const bool known =
-      std::all_of(response.points.begin(), response.points.end(), [&](const ResponsePoint& p) {
-        return response.driven ? p.knows_driven() : p.knows_undriven();
-      });
-  return known ? kSuccess : kWorkFailed;
+  return status_of(response);
 }
 
 }  // namespace
@@ -272,7 +287,7 @@ void add_evaluate(Command app, Context& context) {
       .add_option("--accuracy", options->accuracy,
                   "Wanted standard error of the modulation: grid, samples and estimator follow")
       .type_name("SHARE")
-      .check([](const std::string& text) { return text.empty() ? "expected a share: 5%" : ""; });
+      .check(share_mistake);
   command.add_flag(
       "--model,--parameters", options->parameters,
       "What is not known of the finger: its belief, which is always evaluated where it "

@@ -1,6 +1,5 @@
 // papilla explain FILE: what would be modelled, what not, why, at which cost and error.
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <cmath>
 #include <iostream>
@@ -55,7 +54,8 @@ std::string aims_text(const Study& study) {
 // What `papilla optimize` would take.
 std::string study_text(const Study& study) {
   const StudyCost cost = study_cost(study);
-  const double clock = search_pace(study) / omp_get_num_procs();
+  const int processors = processors_for(study);
+  const double clock = search_pace(study) / processors;
   std::string out =
       aims_text(study) +
       fmt::format(
@@ -63,7 +63,7 @@ std::string study_text(const Study& study) {
           "to {} on {} as busy as this machine is now, and about {:.0f} MB a worker\n",
           counted(cost.evaluations, "evaluation"), counted(cost.tasks, "task"), cost.narrowed,
           cost.finalists, duration(kLeastOfPrice * clock * cost.seconds),
-          duration(kMostOfPrice * clock * cost.seconds), counted(omp_get_num_procs(), "processor"),
+          duration(kMostOfPrice * clock * cost.seconds), counted(processors, "processor"),
           std::ceil(1e-6 * cost.bytes));
   if (cost.members > 0)
     out += fmt::format("of that the finalists at {} of belief take up to {}\n",
@@ -108,7 +108,8 @@ int explain(const Context& context, const DesignOptions& options, bool measure) 
   const Study study = options.study();
   const Design& design = study.design;
   say_scans({design});
-  const TargetOptions target{.target = design.accuracy.target};
+  const TargetOptions target{.target = design.accuracy.target,
+                             .droplet_seeds = design.accuracy.droplet_seeds};
   const Fidelity fidelity = target.target > 0 ? pilot_fidelity(target) : fidelity_of(design);
   const Plan plan = measure ? measured_plan(scene_of(design), design.texture, fidelity)
                             : make_plan(scene_of(design), design.texture, fidelity);

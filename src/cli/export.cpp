@@ -99,6 +99,8 @@ ExportOptions options_of(const ExportCommand& command) {
   if (!command.shrink.empty()) options.bias.shrink = parse_si(command.shrink, "nm");
   if (!command.edge_rounding.empty())
     options.bias.edge_radius = parse_si(command.edge_rounding, "nm");
+  if (!(options.bias.edge_radius >= 0))
+    throw InputError("--edge-rounding: expected a radius, 0 or above");
   if (!command.facet_error.empty()) options.facet_error = parse_si(command.facet_error, "nm");
   if (!(options.facet_error > 0)) throw InputError("--facet-error: expected a length above 0");
   return options;
@@ -188,6 +190,7 @@ void add_export(Command app, Context& context) {
       "Also measure holes and walls in the written heights and simulate them (every file is "
       "held against the design in any case)");
   command.add_option("--tolerance", options->tolerance, "Largest loss of merit of --verify")
+      .check(share_mistake)
       .show_default();
   command
       .add_option("--out", options->out,
@@ -207,8 +210,8 @@ void add_export(Command app, Context& context) {
          "mm\" --pixels 4096",
          "a mask of a square millimetre"},
         {"papilla export m3_samples/a3h600.toml --verify", "simulate what was written, too"}},
-       {{"heightmap.exr, .tif, .gsf, .x3p, .npy, .png, .stl", "heights"},
-        {"layout.gds, layout.oas, mask.tif, dose.png", "for makers"},
+       {{"heightmap.exr, .tif, .gsf, .x3p, .npy, .png", "heights"},
+        {"texture.stl, texture.gds, texture.oas, mask.tif, dose.png", "for makers"},
         {"export.json",
          "where each file comes from and what is in it: `papilla verify` reads it"}}});
   command.on_chosen([&context, options] {

@@ -1,6 +1,5 @@
 // papilla optimize STUDY.toml: searches the design space, writes a folder of results.
 #include <fmt/format.h>
-#include <omp.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -165,12 +164,12 @@ std::string resume_command(const OptimizeOptions& options, const std::string& fo
 // at a time.
 std::string price_text(const Study& study) {
   const StudyCost cost = study_cost(study);
-  const int wanted = study.search.jobs > 0 ? study.search.jobs : omp_get_num_procs();
-  const double seconds = search_pace(study) * cost.seconds / std::min(wanted, omp_get_num_procs());
-  std::string out = fmt::format("expected: {} to {} on {}, for {}",
-                                duration(kLeastOfPrice * seconds), duration(kMostOfPrice * seconds),
-                                counted(std::min(wanted, omp_get_num_procs()), "processor"),
-                                counted(cost.evaluations, "evaluation"));
+  const int processors = processors_for(study);
+  const double seconds = search_pace(study) * cost.seconds / processors;
+  std::string out =
+      fmt::format("expected: {} to {} on {}, for {}", duration(kLeastOfPrice * seconds),
+                  duration(kMostOfPrice * seconds), counted(processors, "processor"),
+                  counted(cost.evaluations, "evaluation"));
   if (study.search.time > 0)
     out += fmt::format("; the clock ends it after {}", duration(study.search.time));
   return out;

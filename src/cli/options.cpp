@@ -5,6 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "base/error.h"
+#include "base/units.h"
+
 namespace papilla::cli {
 namespace {
 
@@ -23,6 +26,18 @@ std::string examples_text(const Manual& manual) {
 }
 
 }  // namespace
+
+std::string share_mistake(const std::string& text) {
+  if (const auto q = parse_quantity(text); q && q->unit.empty() && q->value >= 1)
+    return text + " has no unit; write " + text + "%";
+  try {
+    const double share = parse_si(text, "%");
+    if (share > 0 && share < 1) return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "expected more than 0 % and less than 100 %, got " + text;
+}
 
 Option Option::required() const { return Option(option_->required()); }
 

@@ -40,6 +40,9 @@ class Option {
   CLI::Option* option_;
 };
 
+// What is wrong with a share as a value, "5 %": above 0 and below 100 %; "": nothing.
+std::string share_mistake(const std::string& text);
+
 // What people are told of a command beside its options: in its manual, the examples also by --help.
 struct Manual {
   struct Line {

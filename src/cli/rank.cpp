@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/scan_options.h"
 #include "design/scans.h"
+#include "rank/conditions.h"
 #include "report/ranking.h"
 
 namespace papilla::cli {
@@ -62,8 +63,9 @@ std::vector<std::string> short_names(const std::vector<std::string>& files) {
   std::vector<std::string> names;
   for (const std::string& file : files)
     names.push_back(std::filesystem::path(split(file, '+').front()).stem().string());
+  const std::vector<std::string> stems = names;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (std::count(names.begin(), names.end(), names[i]) > 1) names[i] = files[i];
+    if (std::count(stems.begin(), stems.end(), stems[i]) > 1) names[i] = files[i];
   }
   return names;
 }
@@ -99,15 +101,8 @@ int run(const Context& context, const RankCommand& command) {
   options.criteria = parse_criteria(!command.by.empty() ? command.by
                                     : driven            ? "modulation:high"
                                                         : "friction:low,adhesion:low");
-  const FingerState first_state = designs.front().finger.state;
-  if (command.states.empty() && std::any_of(designs.begin(), designs.end(), [&](const Design& d) {
-        return d.finger.state != first_state;
-      })) {
-    throw InputError("the designs' fingers are in different states (finger.state); say --state " +
-                     finger_state_names()[static_cast<std::size_t>(first_state)]);
-  }
-  options.states =
-      command.states.empty() ? std::vector<FingerState>{first_state} : parse_states(command.states);
+  options.states = command.states.empty() ? std::vector<FingerState>{common_state(candidates)}
+                                          : parse_states(command.states);
   options.max_skins = command.max_skins;
   options.threads = command.jobs;
   if (!command.weights.empty()) options.weights = parse_weights(command.weights);
@@ -115,7 +110,7 @@ int run(const Context& context, const RankCommand& command) {
   const bool asked =
       command.parameters || std::any_of(designs.begin(), designs.end(),
                                         [](const Design& d) { return d.accuracy.parameters; });
-  options.parameters = asked || (unknown.empty() && !command.no_parameters);
+  options.parameters = !command.no_parameters && (asked || unknown.empty());
   if (!options.parameters && !unknown.empty())
     context.note("what the fit of the finger leaves open is in no probability: " + unknown);
   options.note = [&](const std::string& text) { context.note(text); };

@@ -48,6 +48,9 @@ int compare(const ReportOptions& options) {
 int report(const ReportOptions& options) {
   if (!options.other.empty()) return compare(options);
   const bool picture = !options.svg.empty();
+  if (picture && !(options.out.empty() && options.pick.empty()))
+    throw InputError(
+        "--svg is the picture of the front alone: --out and --pick are of the page, without it");
   const std::string path = picture               ? options.svg
                            : options.out.empty() ? options.folder + "/report.html"
                                                  : options.out;

@@ -98,11 +98,17 @@ int run(const Context& context, const ReproduceCommand& command) {
     write_bytes(command.out + "/claims.md", claims_markdown(results, options.finger.name));
     context.note("wrote " + command.out);
   }
-  if (command.figures) write_figures(context, command, options.finger);
   if (command.json)
-    std::cout << claims_json(results) << '\n';
+    std::cout << claims_json(results) << '\n' << std::flush;
   else
     context.print(claims_text(results));
+  if (!command.figures) return kSuccess;
+  try {
+    write_figures(context, command, options.finger);
+  } catch (const WorkStopped&) {
+    context.note("interrupted; the claims are judged, the same command goes on with the figures");
+    return interrupt.status();
+  }
   return kSuccess;
 }
 

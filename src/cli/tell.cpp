@@ -47,7 +47,9 @@ void add_tell(Command app, Context& context) {
   command.add_option("--finger", said.finger, "Who was measured, where the file does not say it");
   command.add_option("--day", said.day, "When, where the file does not say it; else the date");
   command.add_option("--date", said.date, "Of today, for the journal");
-  command.add_flag("--replace", said.replace, "Readings take the place of those they contradict");
+  command.add_flag("--replace", said.replace,
+                   "Readings take the place of those they contradict, and of what the same file "
+                   "was told as before");
   command.add_option("--jobs", options->run.threads, "Threads; 0: all processors").range(0, 4096);
   command.add_flag("--json", options->json, "One JSON object on standard output");
   command.document(

@@ -125,6 +125,7 @@ void add_verify(Command app, Context& context) {
   command.add_flag("--geometry", options->geometry,
                    "What the files hold alone: nothing is simulated");
   command.add_option("--tolerance", options->tolerance, "Largest loss of merit of the heights")
+      .check(share_mistake)
       .show_default();
   command
       .add_option("--receipt", options->receipts,

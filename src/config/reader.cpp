@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
-#include <sstream>
 #include <string_view>
 #include <tuple>
 
@@ -25,10 +24,29 @@ std::string join_path(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
+// The first place from `from` on that has the letter outside of quotes and brackets, as the last
+// dot of constraints.worst(voltage_for(modulation = 0.5)) is not; npos: none has.
+std::size_t find_outside(std::string_view text, char letter, std::size_t from = 0) {
+  int open = 0;
+  bool quoted = false;
+  for (std::size_t i = from; i < text.size(); ++i) {
+    if (open == 0 && !quoted && text[i] == letter) return i;
+    if (text[i] == '"') quoted = !quoted;
+    if (!quoted && text[i] == '(') ++open;
+    if (!quoted && text[i] == ')' && open > 0) --open;
+  }
+  return std::string_view::npos;
+}
+
 std::vector<std::string> split_path(const std::string& path) {
   std::vector<std::string> parts;
-  std::stringstream stream(path);
-  for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
+  for (std::size_t begin = 0, end = 0; begin < path.size(); begin = end + 1) {
+    end = std::min(find_outside(path, '.', begin), path.size());
+    std::string part = path.substr(begin, end - begin);
+    if (part.size() > 2 && part.front() == '"' && part.back() == '"')
+      part = part.substr(1, part.size() - 2);
+    parts.push_back(std::move(part));
+  }
   return parts;
 }
 
@@ -225,7 +243,7 @@ std::string beginning(const std::string& text) {
 }
 
 Override parse_override(const std::string& text) {
-  const std::size_t equals = text.find('=');
+  const std::size_t equals = find_outside(text, '=');
   const std::string origin = "--set " + beginning(text);  // each value of a list has it
   if (equals == std::string::npos || equals == 0) {
     throw InputError({Problem{origin, 0, 0, "", "expected KEY=VALUE, e.g. drive.amplitude=150V"}});
@@ -250,6 +268,20 @@ Override parse_override(const std::string& text) {
   return out;
 }
 
+// The key of a path's next part in a table. A file may spell several parts as one key in quotes,
+// "texture.depth" = [...]: then i is moved on to the last of them.
+std::string key_of(const Node& table, const std::vector<std::string>& parts, std::size_t& i) {
+  for (std::size_t end = parts.size(); end > i + 1; --end) {
+    std::string whole = join_names({parts.begin() + static_cast<std::ptrdiff_t>(i),
+                                    parts.begin() + static_cast<std::ptrdiff_t>(end)},
+                                   ".");
+    if (!table.find(whole)) continue;
+    i = end - 1;
+    return whole;
+  }
+  return parts[i];
+}
+
 void apply(Node& root, const Override& change) {
   Node* node = &root;
   const std::vector<std::string> parts = split_path(change.path);
@@ -258,6 +290,7 @@ void apply(Node& root, const Override& change) {
   };
   if (parts.empty()) refuse("expected a key");
   for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string key = key_of(*node, parts, i);
     const bool last = i + 1 == parts.size();
     if (node->is_array()) {
       const std::size_t index = is_index(parts[i]) ? std::stoul(parts[i]) : node->children.size();
@@ -268,21 +301,21 @@ void apply(Node& root, const Override& change) {
       if (last) item = change.value;
       node = &item;
     } else if (node->is_table()) {
-      Node* child = node->find(parts[i]);
+      Node* child = node->find(key);
       if (last) {
-        if (child && parts[i] == "type" && child->text != change.value.text) {
+        if (child && key == "type" && child->text != change.value.text) {
           // Another kind has other keys; its sections are not the kind's.
           std::erase_if(node->children, [](const Node& member) { return !member.is_table(); });
           child = nullptr;
         }
         Node value = change.value;
-        node->set(parts[i], std::move(value));
+        node->set(key, std::move(value));
         return;
       }
       if (!child) {
         Node table = table_node();
         table.place = table.key_place = change.value.place;
-        child = &node->set(parts[i], std::move(table));
+        child = &node->set(key, std::move(table));
       }
       node = child;
     } else {

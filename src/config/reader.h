@@ -72,7 +72,10 @@ class Document {
 
 // Throws InputError when a file cannot be read or is not TOML. An override is "path=value"; the
 // value is TOML, or else taken as text: texture.depth=350 nm. Of "path:=value" bare numbers are in
-// the SI unit of their key: texture.depth:=3.5e-7. List items: surface.dielectric.0.thickness
+// the SI unit of their key: texture.depth:=3.5e-7. List items: surface.dielectric.0.thickness. The
+// dots and the = of a path are those outside of brackets and quotes:
+// constraints.worst(voltage_for(modulation = 0.5))=150 V. A key in quotes of the file that spells
+// several parts, "texture.depth", is the same path.
 Document load_document(const std::string& path, const std::vector<std::string>& overrides = {},
                        const std::vector<std::string>& search_roots = {});
 // The same from text; `file` stands for it in problems. With search roots its bases are looked for

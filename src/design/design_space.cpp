@@ -210,7 +210,7 @@ void drop_fallen_away(Study& study) {
 void read_design_space(StudyFile& file) {
   const Node* space = file.section("design_space");
   if (!space) return;
-  const PathMembers members = members_by_path(*space, {"choice", "range"});
+  const PathMembers members = file.members(*space, "design_space", {"choice", "range"});
   read_kinds(file, members);
   for (const auto& [path, node] : members) {
     if (path != "texture.type" && path != "texture.levels" &&
@@ -222,7 +222,7 @@ void read_design_space(StudyFile& file) {
 void read_scatter(StudyFile& file) {
   const Node* section = file.section("scatter");
   if (!section) return;
-  const PathMembers members = members_by_path(*section, {"sigma"});
+  const PathMembers members = file.members(*section, "scatter", {"sigma"});
   for (const auto& [path, node] : members) {
     if (path == "correlation") {
       read_correlations(file, *node);

@@ -182,6 +182,20 @@ bool StudyFile::falls_away(const std::string& section, const std::string& path, 
   return true;
 }
 
+PathMembers StudyFile::members(const Node& section, const std::string& name,
+                               const std::vector<std::string>& whole) {
+  PathMembers out;
+  for (const auto& [path, node] : members_by_path(section, whole)) {
+    if (std::any_of(out.begin(), out.end(), [&](const auto& m) { return m.first == path; })) {
+      document.problem(node->key_place, name + "." + path,
+                       fmt::format("stands twice, as \"{0}\" and as {0}: keep one of them", path));
+    } else {
+      out.emplace_back(path, node);
+    }
+  }
+  return out;
+}
+
 void StudyFile::only(const Node& section, const std::string& path,
                      const std::vector<std::string>& names) {
   for (const Node& child : section.children) {

@@ -26,6 +26,10 @@ struct StudyFile {
   // What a base says of a number that its kind of texture has and the one that stands above it has
   // not: it goes with that kind, and the study says so.
   bool falls_away(const std::string& section, const std::string& path, const Node& node);
+  // The members of a section by path, as members_by_path has them; a mistake at one that stands
+  // twice, in both spellings.
+  PathMembers members(const Node& section, const std::string& name,
+                      const std::vector<std::string>& whole);
   // A mistake at each key of a section that is not among the names.
   void only(const Node& section, const std::string& path, const std::vector<std::string>& names);
 };

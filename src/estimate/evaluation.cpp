@@ -14,11 +14,12 @@ Response evaluate_design(const Design& design, const EvaluationOptions& options)
   Fidelity fidelity = fidelity_of(design);
   fidelity.threads = options.threads;
   const double target = options.target > 0 ? options.target : design.accuracy.target;
-  Response response =
-      target > 0 ? evaluate_to_target(
-                       scene, design.texture,
-                       {.target = target, .seed = fidelity.seed, .threads = options.threads})
-                 : evaluate(scene, design.texture, fidelity);
+  Response response = target > 0 ? evaluate_to_target(scene, design.texture,
+                                                      {.target = target,
+                                                       .seed = fidelity.seed,
+                                                       .droplet_seeds = fidelity.droplet_seeds,
+                                                       .threads = options.threads})
+                                 : evaluate(scene, design.texture, fidelity);
   if (options.model) add_belief(response, scene, design.texture, response.fidelity);
   // No uncertainty is counted twice: belief holds what the fit of the finger leaves open.
   if ((options.parameters || design.accuracy.parameters) && response.belief.members.empty())

@@ -263,6 +263,7 @@ Fidelity pilot_fidelity(const TargetOptions& options) {
   Fidelity f = fidelity_level("design");
   f.level = "target";
   f.seed = options.seed;
+  f.droplet_seeds = options.droplet_seeds;
   f.threads = options.threads;
   f.contact_tolerance = std::clamp(options.target / 100, 1e-6, 1e-3);
   f.grid = kSmallestGrid;

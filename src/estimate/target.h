@@ -13,6 +13,7 @@ struct TargetOptions {
   int most_skins = 192;
   int first_skin = 0;
   std::uint64_t seed = 1;
+  int droplet_seeds = 1;  // placements of the droplets on each skin
   int threads = 0;
   double most_seconds = 0;  // as plans price them (forward/plan.h), never by the clock; 0: any
 };

@@ -9,8 +9,9 @@
 namespace papilla::estimate {
 
 // Amplitude at which the dielectric breaks down, edges of the electrode's stated radius included
-// (Eq. electrostatics.9) [V]; 0 without a dielectric.
-double breakdown_voltage(const Surface& surface, const Texture& texture);
+// (Eq. electrostatics.9) [V]; 0 without a dielectric. Layers divide it as they do at the drive's
+// frequency.
+double breakdown_voltage(const Surface& surface, const Texture& texture, const Drive& drive);
 
 // That over an amplitude, known before any field is solved: a bridge or a contact puts all of it on
 // the thinnest place. Infinite where a layer leaks at the drive's frequency and the field alone can
@@ -22,7 +23,8 @@ double bridged_margin(const Surface& surface, const Texture& texture, const Driv
 double amplitude_limit(const Scene& scene, const Texture& texture);
 
 // Adds to every point of a response of that scene the amplitude at which its modulation reaches
-// each target (> 0). Waveform and frequency are the scene's, its amplitude does not matter. Root of
+// each target (> 0). Waveform and frequency are the scene's, its amplitude does not matter: the
+// field is corrected as at the answer, to a percent of the pull. Root of
 // a rising function to 1e-3 of the amplitude, by secants in logarithms within a bracket: first with
 // the load estimator on the gap at rest, then, where the fidelity measures areas, with contact
 // solved under the drive. Not reached: the status names what came first (breakdown, the source,

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -57,22 +58,24 @@ std::vector<Treatment> of_study(const Study& study, std::vector<std::string>& no
   return out;
 }
 
-// The front of a run, each as its build sheet has it where there is one; else its best.
+// The front of a run, of the design that is built the build sheet's rounded numbers; else its best.
 std::vector<Treatment> of_results(const std::string& path) {
   const Folder folder(path);
   std::vector<Treatment> out;
-  const auto take = [&](const std::string& below) {
-    for (const char* file : {"build.toml", "design.toml"}) {
-      if (!folder.has(below + "/" + file)) continue;
-      out.push_back(
-          {fmt::format("D{:02}", out.size() + 1), read_design(folder.file(below + "/" + file)), 0});
-      return true;
-    }
-    return false;
+  const auto design_of = [&](const std::string& file) {
+    return folder.has(file) ? std::optional(read_design(folder.file(file))) : std::nullopt;
   };
-  for (int i = 1; take(fmt::format("front/{:02}", i)); ++i) {
-  }
-  if (out.empty() && !take("best"))
+  const std::optional<Design> best = design_of("best/design.toml"),
+                              rounded = design_of("best/build.toml");
+  const auto take = [&](const Design& design) {
+    const bool built = best && rounded && design.texture == best->texture &&
+                       design.surface == best->surface && design.drive == best->drive;
+    out.push_back({fmt::format("D{:02}", out.size() + 1), built ? *rounded : design, 0});
+  };
+  for (int i = 1; const auto found = design_of(fmt::format("front/{:02}/design.toml", i)); ++i)
+    take(*found);
+  if (out.empty() && best) take(*best);
+  if (out.empty())
     throw InputError(path + ": no front/01 and no best/: not the folder of `papilla optimize`");
   return out;
 }
@@ -264,7 +267,7 @@ void place_fields(WaferPlan& plan, std::size_t flat, std::size_t reference) {
   // Places that are left hold more controls, shared out among the blocks.
   std::vector<std::vector<Planned>> blocks = wanted;
   for (std::size_t k = 0; k + count < slots.size(); ++k) {
-    const bool is_flat = k % 2 == 0;
+    const bool is_flat = k / blocks.size() % 2 == 0;  // both kinds in every block
     blocks[k % blocks.size()].push_back(
         {is_flat ? flat : reference, is_flat ? FieldKind::Flat : FieldKind::Reference});
   }

@@ -240,7 +240,7 @@ class Drawing {
           for (std::size_t j = 0; j < k; ++j) ordinal += alike(etches[j].depth, etches[k].depth);
           const std::string cell =
               etches.size() == 1 ? treatment.name : fmt::format("{}_{}", treatment.name, k + 1);
-          etches_.push_back({t, etches[k], ordinal, cell_name(cell)});
+          etches_.push_back({t, etches[k], ordinal, new_cell_name(cell)});
           note_period(treatment, etches[k]);
         }
       } catch (const InputError& error) {
@@ -249,12 +249,19 @@ class Drawing {
     }
     mistakes.tell();
   }
-  // Mask programs take letters, digits and _ alone.
-  static std::string cell_name(std::string name) {
+  // Mask programs take letters, digits and _ alone, and merge cells of one name: "H3.5" and "H3-5"
+  // are numbered. An array has a second cell, NAME_CELL.
+  std::string new_cell_name(std::string name) {
     for (char& c : name) {
       if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
     }
-    return "DESIGN_" + name;
+    const std::string plain = "DESIGN_" + name;
+    std::string out = plain;
+    for (int k = 2; cell_names_.count(out) + cell_names_.count(out + "_CELL") > 0; ++k)
+      out = fmt::format("{}_{}", plain, k);
+    cell_names_.insert(out);
+    cell_names_.insert(out + "_CELL");
+    return out;
   }
   void note_period(const Treatment& treatment, const Etch& etch) {
     const double wanted = etch.array ? etch.array->wanted.period : etch.cell_x;
@@ -435,6 +442,7 @@ class Drawing {
   const WaferPlan& plan_;
   const WaferShape& shape_;
   std::vector<Ordered> etches_;
+  std::set<std::string> cell_names_;
   std::int32_t square_ = 1;
   WaferDrawing out_;
 };

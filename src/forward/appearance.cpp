@@ -9,6 +9,7 @@
 #include "base/cache.h"
 #include "base/check.h"
 #include "base/constants.h"
+#include "geometry/measured_map.h"
 #include "geometry/roughness.h"
 #include "physics/optics/lattice/look.h"
 
@@ -35,6 +36,7 @@ struct Seen {
   OpticalMedia media;
   Meters meters;
   View view;
+  std::vector<MapVersion> maps;
 
   bool operator==(const Seen&) const = default;
 };
@@ -162,7 +164,7 @@ Optics rigorous(const FeatureArray& array, const TextureFacts& known, const Opti
 }
 
 Optics computed(const Seen& seen) {
-  const auto& [texture, media, meters, view] = seen;
+  const auto& [texture, media, meters, view, maps] = seen;
   const Light light{visible_wavelengths(), view.angles, meters};
   const TextureFacts known = facts(texture);
   Optics out;
@@ -317,7 +319,8 @@ std::string optics_refusal(const Texture& texture, const Surface& surface, const
 }
 
 Optics appearance(const Texture& texture, const Surface& surface, const View& view) {
-  const Seen seen{texture, media_of(surface, view), meters_of(surface, view), view};
+  const Seen seen{texture, media_of(surface, view), meters_of(surface, view), view,
+                  map_versions(texture)};
   if (const std::string why = why_not(texture, seen.media, view); !why.empty()) {
     Optics out;
     out.regime = OpticsRegime::Refused;

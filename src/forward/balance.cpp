@@ -127,7 +127,7 @@ constexpr double kJustTouches = 2e-4;
 std::vector<OpenGapForces> forces_at(const Scene& scene, double relative_humidity, double nominal,
                                      const RidgeGaps& gaps, const SurfaceLevels& levels) {
   const FieldProblem field = field_problem(scene, relative_humidity);
-  const double rms = scene.finger.skin.rms;
+  const double rms = scene.finger.skin.rms * scene.finger.skin.relief_factor();
   const MeanField& all = gaps.field;
   const double contact = all.area(nominal) / all.area(nominal, gaps.q_patch);
   const PowerSpectrum& spectrum = all.spectrum();

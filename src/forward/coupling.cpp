@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "base/constants.h"
+#include "forward/electric_path.h"
 #include "forward/equilibrium.h"
 #include "forward/scene_terms.h"
 #include "numerics/reductions.h"
@@ -79,9 +80,9 @@ class PatchSolver {
       : problem_(problem),
         plan_(plan),
         fidelity_(fidelity),
-        // Both moduli soften by one factor, so the kernel at 15 % RH serves every humidity:
-        // pressures are divided by the factor on the way in and multiplied on the way out.
-        // A compliant surface comes with the kernel of this humidity.
+        // Both moduli soften by one factor, so the kernel at 15 % RH serves every humidity: loads
+        // are divided by the factor on the way in, and the pressures of a state are over it until
+        // they leave in `PatchFields`. A compliant surface comes with the kernel of this humidity.
         softness_(problem.kernel->solid().counter_modulus > 0
                       ? 1
                       : 1 / problem.scene->finger.skin.modulus_factor(problem.relative_humidity)) {}
@@ -216,6 +217,7 @@ class PatchSolver {
     if (fields) {
       fields->off = plan_.traction_solves ? undriven.off : undriven.dry;
       fields->on = on_state.pressure.empty() ? fields->off : on_state;
+      for (ContactSolution* state : {&fields->off, &fields->on}) make_physical(*state);
       fields->wetting_off = plan_.traction_solves ? undriven.water_off : undriven.water;
       fields->wetting_on = std::move(on);
       fields->pull = std::move(pull.traction);
@@ -225,7 +227,8 @@ class PatchSolver {
   }
 
  private:
-  // Contact under the preload and an attractive traction [Pa]; pressures in and out are physical.
+  // Contact under the preload and an attractive traction [Pa]. Its pressures are those of the
+  // kernel's moduli, `softness_` times the physical ones.
   ContactSolution contact(std::vector<double> traction, const ContactSolution* start,
                           double tolerance, PatchResult& out) const {
     const Timed timed(out.costs.seconds.contact);
@@ -239,6 +242,11 @@ class PatchSolver {
     out.costs.fft_pairs += solution.fft_pairs;
     if (tolerance <= fidelity_.contact_tolerance) note_contact(solution, out);
     return solution;
+  }
+
+  void make_physical(ContactSolution& state) const {
+    for (double& p : state.pressure) p /= softness_;
+    state.elastic_energy /= softness_;
   }
 
   static void note_contact(const ContactSolution& solution, PatchResult& out) {
@@ -419,8 +427,9 @@ class PatchSolver {
     out.peak_air_field = pull.peak_air_field;
     out.peak_oxide_field = pull.peak_oxide_field;
     const Surface& surface = problem_.scene->surface;
-    out.oxide_margin = dielectric_margin(
-        surface.layers(), surface.dielectric_thickness() * pull.peak_oxide_field, kInfinity);
+    out.oxide_margin =
+        dielectric_margin(surface.layers(), surface.dielectric_thickness() * pull.peak_oxide_field,
+                          kInfinity, film_divider(surface, problem_.scene->drive));
     if (!pull.ok) out.status.note({Trouble::FieldUnsolved, 0, pull.reason});
   }
 

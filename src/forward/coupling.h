@@ -27,14 +27,16 @@ struct PatchProblem {
   double field_correction = 1;  // on the rule's pull
 };
 
-// The states behind the numbers.
+// The states behind the numbers, at the moduli of that humidity.
 struct PatchFields {
-  ContactSolution off, on;  // at the moduli of that humidity; dry when no tractions are solved
+  ContactSolution off, on;  // dry when no tractions are solved
   Wetting wetting_off, wetting_on;
   Traction pull;
 };
 
-// A patch before the drive: what every voltage starts from.
+// A patch before the drive: what every voltage starts from. The pressures of its states, like those
+// of `PatchStates`, are at the moduli of the kernel: over `Skin::modulus_factor` where that is the
+// one of 15 % RH.
 struct UndrivenPatch {
   PatchResult result;   // undriven
   PatchResult dry_gap;  // the same with the attractions of the dry contact's gap

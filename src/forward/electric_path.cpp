@@ -107,6 +107,17 @@ SeriesLayers series_layers(const Scene& scene, double relative_humidity) {
   return out;
 }
 
+std::vector<Complex> film_divider(const Surface& surface, const Drive& drive) {
+  const double f = frequency(drive);
+  std::vector<Complex> out;
+  for (const FilmDielectric& layer : surface.dielectric) {
+    out.push_back(out.empty()
+                      ? 1.0
+                      : layer_conducts(surface.dielectric.front(), f) / layer_conducts(layer, f));
+  }
+  return out;
+}
+
 double wetted_series(const Scene& scene, double relative_humidity) {
   const double f = frequency(scene.drive);
   // d/eps of each and, beside water, the part of it that does not conduct.
@@ -161,6 +172,7 @@ double relaxation_time(const Scene& scene, double relative_humidity, double gap)
     film += layer.equivalent_thickness();
     resistance += layer.equivalent_thickness() / layer.corner_frequency();
   }
+  if (film <= 0) return 0;  // bare conductors on both sides keep no charge from the gap
   const double leaks = gap_corner(scene) / gap + (resistance > 0 ? 1 / resistance : kInfinity);
   return leaks > 0 ? (1 / gap + 1 / film) / (2 * kPi * leaks) : kInfinity;
 }

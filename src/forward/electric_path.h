@@ -22,6 +22,10 @@ struct SeriesLayers {
 };
 SeriesLayers series_layers(const Scene& scene, double relative_humidity);
 
+// How the layers of the film divide a voltage that stands on all of it: by d/eps times these. 1 for
+// the first layer; the others by what it conducts over what they do. Eq. drive.4
+std::vector<std::complex<double>> film_divider(const Surface& surface, const Drive& drive);
+
 // Of the voltage that electrode and body share, what stands on film and skin below water that
 // leads, as a d/eps [m] that holds the same energy as all the voltage on it would. Eq. drive.13
 double wetted_series(const Scene& scene, double relative_humidity);

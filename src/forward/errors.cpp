@@ -192,6 +192,7 @@ class Controls {
     PatchSet first = patches;
     for (auto& results : first.results) results.resize(static_cast<std::size_t>(skins_));
     out.own = respond(scene_, fidelity_, first);
+    out.friction_by_load = scene_.touch.coefficient > 0;
     out.octaves =
         std::max(0.0, std::log2(patches.plan.effective_cutoff / patches.plan.skin_cutoff));
     Fidelity resolved = fidelity_;
@@ -241,12 +242,13 @@ void state_errors(const ControlRuns& controls, std::size_t m, double resolved, M
   const std::vector<ResponsePoint>& own = controls.own.points;
   const bool load_law = !controls.areas.points.empty();
   const PointQuantity& quantity = kPointQuantities[m];
+  const GridLaw grid_goes = grid_law(quantity.value, controls.friction_by_load);
   std::vector<double> of_grid, of_method, fine, law;
   for (std::size_t i = 0; i < own.size(); ++i) {
     const auto number = [&](const std::vector<ResponsePoint>& points) {
       return std::optional((points[i].*quantity.value).value);
     };
-    const ControlledChange change = controlled_change(controls, quantity.grid, number);
+    const ControlledChange change = controlled_change(controls, grid_goes, number);
     of_grid.push_back(grid_error(change.grid));
     of_method.push_back(method_error(change.method));
     law.push_back((own[i].*quantity.value).value);
@@ -256,7 +258,7 @@ void state_errors(const ControlRuns& controls, std::size_t m, double resolved, M
   level_out(of_method, law);
   for (std::size_t i = 0; i < own.size(); ++i) {
     grid.size[i][m] = of_grid[i];
-    if (quantity.grid == GridLaw::Area) grid.size[i][m] = std::hypot(of_grid[i], resolved);
+    if (grid_goes == GridLaw::Area) grid.size[i][m] = std::hypot(of_grid[i], resolved);
     method.size[i][m] = of_method[i];
   }
 }

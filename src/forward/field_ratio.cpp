@@ -65,12 +65,13 @@ std::vector<AtRest> at_rest(const PatchSetup& setup, int k) {
   return out;
 }
 
-// By the 3-D field [Pa]; 0 where there is none.
-double full_pull(const PatchSetup& setup, const AtRest& patch, double relative_humidity) {
-  if (patch.gap.value.empty()) return 0;
+// By the 3-D field [Pa]; nothing where contact or field have no solution.
+std::optional<double> full_pull(const PatchSetup& setup, const AtRest& patch,
+                                double relative_humidity) {
+  if (patch.gap.value.empty()) return std::nullopt;
   const FieldSolution full = solve_full_field(patch.gap, &setup.surface(), patch.wetting,
                                               field_problem(setup.scene(), relative_humidity));
-  return full.ok ? full.mean_pressure : 0;
+  return full.ok ? std::optional(full.mean_pressure) : std::nullopt;
 }
 
 // Nothing for layers that conduct alike or insulate alike, and of second order in their lag.
@@ -81,27 +82,33 @@ double error_of_lag(const Scene& scene, double relative_humidity) {
   return size > 0 ? kOfLag * square(2 * series.real() * series.imag() / size) : 0;
 }
 
-FieldRatio ratio_of(const std::vector<double>& full, const std::vector<double>& rule,
-                    bool corrected) {
-  const double sum = std::accumulate(rule.begin(), rule.end(), 0.0);
+}  // namespace
+
+FieldRatio field_ratio(std::span<const std::optional<double>> full, std::span<const double> rule,
+                       bool corrected) {
+  std::vector<double> solved, by_rule;
+  for (std::size_t k = 0; k < full.size(); ++k) {
+    if (!full[k]) continue;
+    solved.push_back(*full[k]);
+    by_rule.push_back(rule[k]);
+  }
+  const double sum = std::accumulate(by_rule.begin(), by_rule.end(), 0.0);
   FieldRatio out;
-  // Nothing pulls, in a flooded patch: nothing to correct.
-  if (!(sum > 0) || !(std::accumulate(full.begin(), full.end(), 0.0) > 0)) {
+  // Nothing pulls, in a flooded patch, or no 3-D field is known: nothing to correct.
+  if (!(sum > 0) || !(std::accumulate(solved.begin(), solved.end(), 0.0) > 0)) {
     out.error = 1;
     return out;
   }
-  const Estimate e = ratio_estimate(full, rule);
+  const Estimate e = ratio_estimate(solved, by_rule);
   if (!corrected) {
     out.error = std::abs(1 / e.value - 1);
     return out;
   }
   out.correction = e.value;
-  const double skins = kOfOneSkin / std::sqrt(static_cast<double>(full.size()));
-  out.error = std::hypot(kOfFullField, std::max(skins, full.size() > 1 ? e.se / e.value : 0));
+  const double skins = kOfOneSkin / std::sqrt(static_cast<double>(solved.size()));
+  out.error = std::hypot(kOfFullField, std::max(skins, solved.size() > 1 ? e.se / e.value : 0));
   return out;
 }
-
-}  // namespace
 
 bool field_corrected(const Scene& scene, const Fidelity& fidelity) {
   return scene.drive.driven() && fidelity.field_skins > 0 && scene.model.preset != Preset::M3 &&
@@ -137,7 +144,9 @@ FieldRatios field_ratios(const Scene& scene, const Texture& texture, const Fidel
       fidelity.field_skins,
       [&](int k) { patches[static_cast<std::size_t>(k)] = at_rest(setup, k); }, fidelity.threads);
   // The dear part, by single patches: one skin keeps all threads at work.
-  std::vector<std::vector<double>> full(humidities, std::vector<double>(skins)), rule = full;
+  std::vector<std::vector<std::optional<double>>> full(humidities,
+                                                       std::vector<std::optional<double>>(skins));
+  std::vector<std::vector<double>> rule(humidities, std::vector<double>(skins));
   parallel_for(
       static_cast<int>(skins * humidities),
       [&](int at) {
@@ -150,13 +159,14 @@ FieldRatios field_ratios(const Scene& scene, const Texture& texture, const Fidel
   for (std::size_t i = 0; i < humidities; ++i) {
     const double rh = scene.environment.relative_humidity[i];
     if (!knows_skin_layer(setup.plan().grid, field_problem(scene, rh))) continue;
-    out[i] = ratio_of(full[i], rule[i], method == FieldMethod::Spread);
+    out[i] = field_ratio(full[i], rule[i], method == FieldMethod::Spread);
     out[i].error = std::hypot(*out[i].error, error_of_lag(scene, rh));
   }
   return out;
 }
 
-void add_field_error(const FieldRatio& ratio, double load_exponent, ResponsePoint& point) {
+void add_field_error(const FieldRatio& ratio, const LoadExponents& exponents,
+                     ResponsePoint& point) {
   point.field_correction = ratio.correction;
   point.field_error = ratio.error;
   if (!ratio.error) return;
@@ -166,12 +176,15 @@ void add_field_error(const FieldRatio& ratio, double load_exponent, ResponsePoin
   const double load = std::accumulate(on.begin(), on.end(), 0.0);
   const double pull =
       load - std::accumulate(point.samples.load_off.begin(), point.samples.load_off.end(), 0.0);
-  // Of the area under the drive, and so of the friction of contact.
-  const double relative = load > 0 ? load_exponent * std::max(pull, 0.0) / load * e : 0;
-  point.area_fraction_on.parts.field = relative * point.area_fraction_on.value;
+  // Of the area under the drive, and of the friction of contact.
+  const auto relative = [&](double exponent) {
+    return load > 0 ? exponent * std::max(pull, 0.0) / load * e : 0;
+  };
+  const double rubs = relative(exponents.friction);
+  point.area_fraction_on.parts.field = relative(exponents.area) * point.area_fraction_on.value;
   point.friction_on.parts.field =
-      relative * (point.friction_on.value - point.retention_force.value - point.retention_gain);
-  point.modulation.parts.field = relative * (1 + point.modulation.value);
+      rubs * (point.friction_on.value - point.retention_force.value - point.retention_gain);
+  point.modulation.parts.field = rubs * (1 + point.modulation.value);
 }
 
 }  // namespace papilla::forward

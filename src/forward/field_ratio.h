@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/rooms.h"
@@ -24,6 +25,11 @@ using FieldRatios = std::vector<FieldRatio>;  // one per humidity of a scene
 // error. Eq. electrostatics.17. Cost: one contact, water and 3-D field per skin and humidity.
 FieldRatios field_ratios(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
 
+// That of a humidity from the pulls of single skins [Pa]. A skin whose 3-D field has no solution
+// counts in neither sum; without any the error is 1.
+FieldRatio field_ratio(std::span<const std::optional<double>> full, std::span<const double> rule,
+                       bool corrected);
+
 // Whether the rule's pull will be corrected, the relative error of the pull then, and the price of
 // it [s] on one core.
 bool field_corrected(const Scene& scene, const Fidelity& fidelity);
@@ -34,7 +40,8 @@ inline constexpr double kOfFullField = 0.02;
 inline constexpr int kMostFieldPixels = 128;  // along the window: finer ones move no ratio
 double field_ratio_seconds(const Scene& scene, const Grid& grid, const Fidelity& fidelity);
 
-// Adds what the pull's error leaves of the numbers of a point. Eq. electrostatics.17, friction.3
-void add_field_error(const FieldRatio& ratio, double load_exponent, ResponsePoint& point);
+// Adds what the pull's error leaves of the numbers of a point. Eq. electrostatics.17, friction.3,
+// friction.4
+void add_field_error(const FieldRatio& ratio, const LoadExponents& exponents, ResponsePoint& point);
 
 }  // namespace papilla::forward

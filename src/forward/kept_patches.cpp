@@ -29,17 +29,22 @@ Scene before_water(Scene scene) {
 void KeptPatches::begin(const PatchSetup& setup) {
   const Fidelity& fidelity = setup.fidelity();
   PAPILLA_CHECK(fidelity.estimator == Estimator::Load, "patches are kept for the load estimator");
-  const Key contact{before_water(setup.scene()), setup.described(), fidelity};
-  const Key water{before_drive(setup.scene()), setup.described(), fidelity};
+  std::vector<MapVersion> maps = map_versions(setup.described());
+  if (const std::string& skin = setup.scene().finger.skin.map; !skin.empty())
+    maps.push_back(map_version(skin));
+  const Key contact{before_water(setup.scene()), setup.described(), fidelity, maps};
+  const Key water{before_drive(setup.scene()), setup.described(), fidelity, maps};
   const bool same_contact = whole_ && contact_ && *contact_ == contact;
   const bool same_water = same_contact && water_ && *water_ == water;
   held_ = same_water ? Held::Water : same_contact ? Held::Contact : Held::Nothing;
   const int skins = std::max(fidelity.skins, sampled_skins(setup, setup.plan()));
-  if (!same_contact) skins_.assign(static_cast<std::size_t>(skins), {});
+  if (!same_contact) skins_.clear();
   for (Skin& skin : skins_) {
     skin.contact = same_contact;
     skin.water = same_water;
   }
+  // The same contact may ask for another number: dry skin has samples of the load law only driven.
+  skins_.resize(static_cast<std::size_t>(skins));
   contact_ = contact;
   water_ = water;
   whole_ = false;

@@ -8,6 +8,7 @@
 #include "forward/coupling.h"
 #include "forward/patch_set.h"
 #include "forward/patch_setup.h"
+#include "geometry/measured_map.h"
 
 namespace papilla::forward {
 
@@ -42,6 +43,7 @@ class KeptPatches {
     Scene scene;  // without what does not count
     Texture texture;
     Fidelity fidelity;
+    std::vector<MapVersion> maps;  // of texture and skin
 
     bool operator==(const Key&) const = default;
   };

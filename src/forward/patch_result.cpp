@@ -16,7 +16,21 @@ PatchCosts& PatchCosts::operator+=(const PatchCosts& other) {
   return *this;
 }
 
-GridLaw grid_law(Measured PointQuantities::*quantity) {
+namespace {
+
+bool is_friction(Measured PointQuantities::*quantity) {
+  return quantity == &PointQuantities::friction_off || quantity == &PointQuantities::friction_on;
+}
+
+}  // namespace
+
+double LoadExponents::of(Measured PointQuantities::*quantity) const {
+  const bool rubs = is_friction(quantity) || quantity == &PointQuantities::modulation;
+  return rubs ? friction : area;
+}
+
+GridLaw grid_law(Measured PointQuantities::*quantity, bool friction_by_load) {
+  if (friction_by_load && is_friction(quantity)) return GridLaw::Other;
   for (const PointQuantity& q : kPointQuantities) {
     if (q.value == quantity) return q.grid;
   }

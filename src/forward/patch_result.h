@@ -129,7 +129,19 @@ inline constexpr std::array kPointQuantities{
                   WaterBand::None},
     PointQuantity{&PointQuantities::indentation, &PatchResult::indentation, false, GridLaw::Other,
                   WaterBand::None}};
-GridLaw grid_law(Measured PointQuantities::*quantity);
+// friction_by_load: Eq. friction.4, of which no area is part.
+GridLaw grid_law(Measured PointQuantities::*quantity, bool friction_by_load = false);
+
+// By which power of the load contact areas and friction go: alike where friction is that of the
+// areas (Eq. friction.3), friction by 1 with a coefficient (Eq. friction.4).
+struct LoadExponents {
+  double area = 0, friction = 0;
+
+  double of(Measured PointQuantities::*quantity) const;
+};
+inline LoadExponents load_exponents(double of_areas, double coefficient) {
+  return {of_areas, coefficient > 0 ? 1 : of_areas};
+}
 static_assert(
     [] {
       bool same = kPointQuantities.size() == api::kQuantities<Measured>.size();
@@ -139,7 +151,7 @@ static_assert(
     }(),
     "every quantity says where it comes from");
 
-// One result for the skin: costs add up, the first trouble counts.
+// One result for the skin: costs add up, the first trouble or pull-in counts.
 PatchResult over_water(std::span<const PatchResult> members);
 
 // The share of patches at each patch pressure: under the nominal load, before and under the drive.

@@ -214,7 +214,8 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
       response.without[k].back().samples = {};
       if (k < others.size()) others[k] = patches[k];
     }
-    add_field_error(set.field[i], fidelity.load_exponent, response.points.back());
+    add_field_error(set.field[i], load_exponents(fidelity.load_exponent, scene.touch.coefficient),
+                    response.points.back());
     for (const MeasuredError& error : set.errors)
       add_measured_error(error, i, response.points.back());
     if (set.plan.water) note_water(response.points.back(), scene.finger.water);

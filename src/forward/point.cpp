@@ -23,7 +23,7 @@ Measured sampled_mean(Patches patches, double PatchResult::*member, double facto
   return {factor * e.value, {.sampling = std::abs(factor) * e.se}};
 }
 
-// Per-skin numbers, peaks, shares and the first trouble.
+// Per-skin numbers, peaks, shares and the first trouble or pull-in.
 void gather(ResponsePoint& point, Patches patches) {
   const auto count = static_cast<double>(patches.size());
   for (const PatchResult& p : patches) {
@@ -160,19 +160,22 @@ void rub_by_load(ResponsePoint& point, double coefficient, double patches_per_fi
 }
 
 // Eq. accuracy.1
-void add_solver_errors(ResponsePoint& point, Patches patches, double exponent) {
+void add_solver_errors(ResponsePoint& point, Patches patches, const LoadExponents& exponents) {
   double certificate = 0, residual = 0;
   for (const PatchResult& p : patches) {
     certificate = std::max(certificate, p.certificate);
     residual = std::max(residual, p.coupling_residual);
   }
   // An attraction that is off by a share of the load moves the area by that times beta.
-  const double relative = std::hypot(contact_error(certificate), exponent * residual);
+  const auto relative = [&](Measured PointQuantities::*quantity) {
+    return std::hypot(contact_error(certificate), exponents.of(quantity) * residual);
+  };
   for (const PointQuantity& q : kPointQuantities) {
     Measured& m = point.*q.value;
-    m.parts.solver.emplace(relative * std::abs(m.value));
+    m.parts.solver.emplace(relative(q.value) * std::abs(m.value));
   }
-  point.modulation.parts.solver = relative * (1 + std::abs(point.modulation.value));
+  point.modulation.parts.solver =
+      relative(&PointQuantities::modulation) * (1 + std::abs(point.modulation.value));
 }
 
 }  // namespace
@@ -213,9 +216,10 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
                plan.field);
   if (scene.touch.coefficient > 0)
     rub_by_load(point, scene.touch.coefficient, patches_per_finger, retention_on, plan.field);
-  add_solver_errors(point, patches, setting.fidelity.load_exponent);
-  if (plan.water)
-    add_water_band(point, patches, scene.model.water, plan.grid, setting.fidelity.load_exponent);
+  const LoadExponents exponents =
+      load_exponents(setting.fidelity.load_exponent, scene.touch.coefficient);
+  add_solver_errors(point, patches, exponents);
+  if (plan.water) add_water_band(point, patches, scene.model.water, plan.grid, exponents);
   return point;
 }
 

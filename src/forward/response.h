@@ -115,6 +115,7 @@ struct ControlRuns {
   // Of the step from half the pixels, what is missing to the limit as the texture's features are
   // few pixels wide: 0 where they are resolved.
   double coarse_features = 0;
+  bool friction_by_load = false;  // Eq. friction.4
 };
 
 // The finger moved one standard deviation up and down an independent direction of its fit's

@@ -122,7 +122,8 @@ PatchResult ScaleBridge::combine(std::span<const PatchResult> patches) const {
   PAPILLA_CHECK(patches.size() == pressures_.size(), "one result per pressure");
   if (closure_ == Closure::Uniform) {
     PatchResult out = patches[0];
-    if (!status_.sound()) out.status = status_;
+    out.status = status_;
+    out.status.note(patches[0].status);
     return out;
   }
   PatchResult out;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/constants.h"
 #include "forward/electric_path.h"
@@ -143,10 +144,13 @@ double driven_contact_angle(const Scene& scene, double relative_humidity) {
   if (!scene.drive.driven()) return scene.surface.contact_angle;
   const double undriven = scene.surface.contact_angle;
   const double saturated = scene.finger.saturation.angle(undriven);
-  const double eta = electrowetting_number(source_voltage(scene, relative_humidity).peak,
-                                           wetted_series(scene, relative_humidity),
-                                           scene.finger.water.surface_tension);
-  const bool sine = scene.drive.waveform == Waveform::Sine || scene.drive.waveform == Waveform::Am;
+  // A modulated carrier counts as the sine that has its mean square.
+  const bool modulated = scene.drive.waveform == Waveform::Am;
+  const SourceVoltage source = source_voltage(scene, relative_humidity);
+  const double eta = electrowetting_number(
+      modulated ? std::numbers::sqrt2 * source.rms : source.peak,
+      wetted_series(scene, relative_humidity), scene.finger.water.surface_tension);
+  const bool sine = modulated || scene.drive.waveform == Waveform::Sine;
   return std::acos(std::clamp(
       electrowetted_cosine(std::cos(undriven), std::cos(saturated), eta, sine), -1.0, 1.0));
 }

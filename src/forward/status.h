@@ -36,9 +36,10 @@ struct ModelStatus {
   bool sound() const { return trouble == Trouble::None; }
   // No equilibrium under this voltage.
   bool pull_in() const;
-  // Keeps the first trouble: what follows from it is no news.
+  // Keeps the first trouble, as what follows from it is no news; but for a pull-in, which no other
+  // trouble hides.
   void note(const ModelStatus& next) {
-    if (sound()) *this = next;
+    if (sound() || (next.pull_in() && !pull_in())) *this = next;
   }
   bool operator==(const ModelStatus&) const = default;
 };

@@ -26,8 +26,9 @@ Scene driven(const Scene& scene) {
 
 UndrivenPatches::UndrivenPatches(const Scene& scene, const Texture& texture,
                                  const Fidelity& fidelity)
-    : setup_(std::make_unique<const PatchSetup>(driven(scene), texture, fidelity)),
-      field_(field_ratios(driven(scene), texture, fidelity)) {
+    : driven_(driven(scene)),
+      setup_(std::make_unique<const PatchSetup>(driven_, texture, fidelity)),
+      field_(field_ratios(driven_, texture, fidelity)) {
   const Grid& grid = setup_->plan().grid;
   kernel_ = contact_kernel(setup_->scene(), setup_->body(), grid, humidity());
   pressures_ =
@@ -55,6 +56,15 @@ UndrivenPatches::UndrivenPatches(const Scene& scene, const Texture& texture,
         }
       },
       fidelity.threads);
+}
+
+void UndrivenPatches::correct_at(double amplitude) {
+  driven_.drive.amplitude = amplitude;
+  field_ = field_ratios(driven_, setup_->described(), setup_->fidelity());
+}
+
+double UndrivenPatches::corrected_at() const {
+  return field_corrected(driven_, setup_->fidelity()) ? driven_.drive.amplitude : 0;
 }
 
 ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) const {
@@ -96,7 +106,8 @@ ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) cons
       combined(bridge, samples > 0 ? load_laws(bridge, solved) : LoadLaws{},
                std::span(solved).first(static_cast<std::size_t>(fidelity.skins)));
   ResponsePoint point = response_point({scene, plan, fidelity}, humidity(), 1, bridge, results);
-  add_field_error(field_.front(), fidelity.load_exponent, point);
+  add_field_error(field_.front(), load_exponents(fidelity.load_exponent, scene.touch.coefficient),
+                  point);
   return point;
 }
 

@@ -15,8 +15,14 @@ namespace papilla::forward {
 // pressure.
 class UndrivenPatches {
  public:
-  // scene: of one humidity; its amplitude does not matter.
+  // scene: of one humidity; its amplitude matters to the correction alone.
   UndrivenPatches(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
+
+  // The rule's pull is corrected as at one amplitude [V] until another is asked for: at first that
+  // of the scene, or 1 V where that has none. Cost: as `field_ratios`.
+  void correct_at(double amplitude);
+  // 0 where the fidelity corrects nothing.
+  double corrected_at() const;
 
   // The response at an amplitude [V] > 0. The load estimator costs field and water alone, the area
   // one contact solve per patch.
@@ -25,6 +31,7 @@ class UndrivenPatches {
  private:
   double humidity() const { return setup_->scene().environment.relative_humidity[0]; }
 
+  Scene driven_;  // by the voltage that the field is corrected at
   std::unique_ptr<const PatchSetup> setup_;
   FieldRatios field_;  // of the one humidity
   std::shared_ptr<const ContactKernel> kernel_;

@@ -69,7 +69,7 @@ double reach(WaterBand of, const DropletBand& band, const Loads& loads, double l
 }  // namespace
 
 void add_water_band(ResponsePoint& point, std::span<const PatchResult> patches, WaterModel model,
-                    const Grid& grid, double load_exponent) {
+                    const Grid& grid, const LoadExponents& exponents) {
   const Loads loads = loads_of(patches);
   if (model == WaterModel::Threshold) {
     // Eq. capillary.21, of what droplets would give.
@@ -83,7 +83,7 @@ void add_water_band(ResponsePoint& point, std::span<const PatchResult> patches, 
   for (const PointQuantity& q : kPointQuantities) {
     if (q.water == WaterBand::None) continue;
     Measured& m = point.*q.value;
-    m.parts.water = reach(q.water, band, loads, load_exponent) * std::abs(m.value);
+    m.parts.water = reach(q.water, band, loads, exponents.of(q.value)) * std::abs(m.value);
   }
 }
 

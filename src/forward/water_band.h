@@ -9,9 +9,8 @@
 namespace papilla::forward {
 
 // Fills the water part of each error (WaterBand of kPointQuantities) from means over the patches:
-// Eq. capillary.19, 20, 23 for droplets, capillary.21 for the threshold. load_exponent: Eq.
-// friction.3
+// Eq. capillary.19, 20, 23 for droplets, capillary.21 for the threshold.
 void add_water_band(ResponsePoint& point, std::span<const PatchResult> patches, WaterModel model,
-                    const Grid& grid, double load_exponent);
+                    const Grid& grid, const LoadExponents& exponents);
 
 }  // namespace papilla::forward

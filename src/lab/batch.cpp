@@ -1,9 +1,11 @@
 #include "lab/batch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "base/check.h"
+#include "base/constants.h"
 #include "base/parallel.h"
 
 namespace papilla::lab {
@@ -44,6 +46,11 @@ const std::vector<std::string>& aim_names() {
   return names;
 }
 
+const std::vector<std::string>& batch_end_names() {
+  static const std::vector<std::string> names{"count", "time", "nothing"};
+  return names;
+}
+
 void fields(FieldVisitor& v, Costs& s) {
   const auto time = [&](const char* key, const char* doc, double& value) {
     v.number({key, "min", 0, 1e5, doc, Source::Estimate, "a bench with a climate box"}, value);
@@ -54,12 +61,12 @@ void fields(FieldVisitor& v, Costs& s) {
   time("state", "to prepare the finger, once in a batch", s.state);
 }
 
-std::vector<Chosen> choose_batch(const std::vector<Candidate>& candidates, Gain& gain,
-                                 const BatchOptions& options) {
-  std::vector<Chosen> out;
+Batch choose_batch(const std::vector<Candidate>& candidates, Gain& gain,
+                   const BatchOptions& options) {
+  Batch out;
   SetUps set_up(options.costs);
   double spent = 0;
-  while (static_cast<int>(out.size()) < options.count) {
+  while (static_cast<int>(out.chosen.size()) < options.count) {
     std::vector<double> gains(candidates.size(), 0);
     parallel_for(
         static_cast<int>(candidates.size()),
@@ -68,20 +75,28 @@ std::vector<Chosen> choose_batch(const std::vector<Candidate>& candidates, Gain&
         },
         options.threads);
     std::optional<Chosen> best;
+    double too_long = kInfinity;  // the shortest that does not fit
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       const double seconds = set_up.seconds(candidates[i].experiment);
       if (!(gains[i] > kNothing)) continue;
-      if (options.seconds > 0 && spent + seconds > options.seconds) continue;
+      if (options.seconds > 0 && spent + seconds > options.seconds) {
+        too_long = std::min(too_long, seconds);
+        continue;
+      }
       // Eq. lab.9; where nothing costs anything, by the gain.
       const double worth = gains[i] / std::max(seconds, kNothing);
       if (!best || worth > best->gain / std::max(best->seconds, kNothing))
         best = Chosen{i, gains[i], seconds};
     }
-    if (!best) break;
+    if (!best) {
+      out.end = std::isinf(too_long) ? BatchEnd::Nothing : BatchEnd::Time;
+      if (out.end == BatchEnd::Time) out.shortest = too_long;
+      break;
+    }
     spent += best->seconds;
     set_up.take(candidates[best->candidate].experiment);
     gain.take(candidates[best->candidate]);
-    out.push_back(*best);
+    out.chosen.push_back(*best);
   }
   return out;
 }

@@ -66,10 +66,23 @@ struct BatchOptions {
   int threads = 0;
 };
 
-// Greedy. Stops before `count` where nothing is gained or paid for any more. The same for any
-// number of threads. Eq. lab.9
-std::vector<Chosen> choose_batch(const std::vector<Candidate>& candidates, Gain& gain,
-                                 const BatchOptions& options);
+// Why a batch holds no more.
+enum class BatchEnd {
+  Count,    // as many as were asked for
+  Time,     // what still gains takes longer than is left
+  Nothing,  // nothing gains
+};
+const std::vector<std::string>& batch_end_names();  // "count", "time", "nothing"
+
+struct Batch {
+  std::vector<Chosen> chosen;
+  BatchEnd end = BatchEnd::Count;
+  double shortest = 0;  // of what takes too long for the time that is left [s]
+};
+
+// Greedy. The same for any number of threads. Eq. lab.9
+Batch choose_batch(const std::vector<Candidate>& candidates, Gain& gain,
+                   const BatchOptions& options);
 // What a batch costs, its set-ups once each.
 double seconds_of(const std::vector<Candidate>& candidates, const std::vector<std::size_t>& batch,
                   const Costs& costs);

@@ -25,59 +25,83 @@ struct Mean {
   double scatter() const { return std::max(0.0, squares - sum * sum / count); }
 };
 
+using Days = std::map<std::string, Mean>;     // of a finger: its readings
+using Fingers = std::map<std::string, Days>;  // of a design, conditions, off or on
+
+// The means of the days of a finger, and the sum of 1/n over their readings.
+struct DayMeans {
+  Mean of;
+  double inverse = 0;
+
+  explicit DayMeans(const Days& days) {
+    for (const auto& [day, readings] : days) {
+      of.add(readings.mean());
+      inverse += 1.0 / readings.count;
+    }
+  }
+};
+
+// Squares about the means of groups.
+struct Pooled {
+  double sum = 0;
+  int freedom = 0;
+
+  // within: variances that the values of a group have by what scatters within each, summed. Of k
+  // values with such variances the squares about their mean hold (1 - 1/k) of that sum.
+  void add(const Mean& group, double within) {
+    sum += group.scatter() - within * (1 - 1.0 / group.count);
+    freedom += group.count - 1;
+  }
+  GaugeSpread spread() const {
+    if (freedom == 0) return {};
+    return {std::sqrt(std::max(0.0, sum / freedom)), freedom};
+  }
+};
+
 std::string cell_of(const FrictionReading& r, bool on) {
   return std::to_string(r.experiment.design) + " " + text(r.experiment.at) + (on ? " on" : " off");
 }
 
-// GaugeSpread of the means of groups below a common key, less what scatters within them.
-GaugeSpread between(const std::map<std::string, Mean>& groups,
-                    const std::map<std::string, std::string>& above, double within) {
-  std::map<std::string, Mean> common;
-  double inverse = 0;
-  for (const auto& [key, mean] : groups) {
-    common[above.at(key)].add(mean.mean());
-    inverse += 1.0 / mean.count;
-  }
-  GaugeSpread out;
-  double sum = 0;
-  for (const auto& [key, mean] : common) {
-    sum += mean.scatter();
-    out.freedom += mean.count - 1;
-  }
-  if (out.freedom == 0) return {};
-  const double mean_of_few = square(within) * inverse / static_cast<double>(groups.size());
-  out.deviation = std::sqrt(std::max(0.0, sum / out.freedom - mean_of_few));
-  return out;
-}
-
 }  // namespace
 
+// Eq. lab.14
 Gauge gauge_of(const std::vector<FrictionReading>& readings) {
-  std::map<std::string, Mean> days, fingers;
-  std::map<std::string, std::string> finger_of, cell_of_finger;
+  std::map<std::string, Fingers> cells;
   for (const FrictionReading& r : readings) {
     for (const bool on : {false, true}) {
       const double force = on ? r.on : r.off;
-      if (!(force > 0)) continue;
-      const std::string cell = cell_of(r, on), finger = cell + "\t" + r.finger,
-                        day = finger + "\t" + r.day;
-      days[day].add(std::log(force));
-      finger_of[day] = finger;
-      cell_of_finger[finger] = cell;
+      if (force > 0) cells[cell_of(r, on)][r.finger][r.day].add(std::log(force));
     }
   }
   Gauge out;
-  double sum = 0;
-  for (const auto& [key, mean] : days) {
-    sum += mean.scatter();
-    out.repeatability.freedom += mean.count - 1;
-    fingers[finger_of[key]].add(mean.mean());
+  Pooled repeats, days, fingers;
+  for (const auto& [cell, of_cell] : cells) {
+    for (const auto& [finger, of_finger] : of_cell) {
+      for (const auto& [day, of_day] : of_finger) repeats.add(of_day, 0);
+    }
   }
-  if (out.repeatability.freedom > 0)
-    out.repeatability.deviation = std::sqrt(sum / out.repeatability.freedom);
-  out.day_to_day = between(days, finger_of, out.repeatability.deviation);
-  out.finger_to_finger = between(fingers, cell_of_finger, out.day_to_day.deviation);
-  return out;  // Eq. lab.14
+  out.repeatability = repeats.spread();
+  const double of_reading = square(out.repeatability.deviation);
+  for (const auto& [cell, of_cell] : cells) {
+    for (const auto& [finger, of_finger] : of_cell) {
+      const DayMeans means(of_finger);
+      days.add(means.of, of_reading * means.inverse);
+    }
+  }
+  out.day_to_day = days.spread();
+  const double of_day = square(out.day_to_day.deviation);
+  for (const auto& [cell, of_cell] : cells) {
+    Mean means_of_fingers;
+    double within = 0;
+    for (const auto& [finger, of_finger] : of_cell) {
+      const DayMeans means(of_finger);
+      means_of_fingers.add(means.of.mean());
+      within += (of_day + of_reading * means.inverse / means.of.count) / means.of.count;
+    }
+    fingers.add(means_of_fingers, within);
+  }
+  out.finger_to_finger = fingers.spread();
+  return out;
 }
 
 Instrument after_gauge(const Instrument& stated, const Gauge& gauge) {

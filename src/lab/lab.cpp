@@ -107,20 +107,54 @@ std::string identity(const FrictionReading& r) {
                      r.day, r.repeat);
 }
 
+struct ToldReading {
+  const FrictionReading* reading;
+  const TellRecord* of;
+  std::string id;  // its identity
+
+  std::string where() const { return of->file + " of " + of->date; }
+};
+
+// Of all tellings, without those that a later one took the place of.
+std::vector<ToldReading> in_force(const std::vector<JournalEntry>& entries) {
+  std::vector<ToldReading> out;
+  for (const JournalEntry& e : entries) {
+    if (!e.tell) continue;
+    for (const std::string& key : e.tell->replaced)
+      std::erase_if(out, [&](const ToldReading& o) { return o.reading->key == key; });
+    for (const FrictionReading& r : e.tell->readings) {
+      const std::string id = identity(r);
+      if (!id.empty()) std::erase_if(out, [&](const ToldReading& o) { return o.id == id; });
+      out.push_back({&r, &*e.tell, id});
+    }
+  }
+  return out;
+}
+
+// What was told, by key and by identity. Both also as of no day: one that says none is sought so.
+struct ToldBefore {
+  std::map<std::string, ToldReading> by_key;
+  std::multimap<std::string, ToldReading> by_identity;
+
+  explicit ToldBefore(const std::vector<ToldReading>& told) {
+    for (const ToldReading& t : told) {
+      add(*t.reading, t);
+      add(as_of_day(*t.reading, ""), t);
+    }
+  }
+
+ private:
+  void add(const FrictionReading& r, const ToldReading& t) {
+    by_key.emplace(r.key, t);
+    if (const std::string id = identity(r); !id.empty()) by_identity.emplace(id, t);
+  }
+};
+
 }  // namespace
 
 std::vector<FrictionReading> Lab::readings() const {
   std::vector<FrictionReading> out;
-  for (const JournalEntry& e : entries_) {
-    if (!e.tell) continue;
-    for (const FrictionReading& r : e.tell->readings) {
-      // A later one of the same identity was told to take its place.
-      const std::string id = identity(r);
-      if (!id.empty())
-        std::erase_if(out, [&](const FrictionReading& o) { return identity(o) == id; });
-      out.push_back(r);
-    }
-  }
+  for (const ToldReading& t : in_force(entries_)) out.push_back(*t.reading);
   return out;
 }
 
@@ -146,16 +180,12 @@ std::vector<Experiment> Lab::candidates() const {
                     "in lab.toml until there are {} at most",
                     count, kMostCandidates));
   for (std::size_t d = 0; d < designs_.size(); ++d) {
-    for (const std::string& state : c.states) {
-      const auto& names = finger_state_names();
-      const auto index = std::find(names.begin(), names.end(), state) - names.begin();
+    for (const FingerState state : finger_states(c)) {
       for (const double load : c.load) {
         for (const double voltage : c.voltage) {
           for (const double frequency : frequencies) {
             for (const double humidity : c.humidity) {
-              const Experiment e{d,
-                                 {load, humidity, voltage, voltage > 0 ? frequency : 0,
-                                  static_cast<FingerState>(index)}};
+              const Experiment e{d, {load, humidity, voltage, voltage > 0 ? frequency : 0, state}};
               if (std::find(out.begin(), out.end(), e) == out.end()) out.push_back(e);
             }
           }
@@ -172,10 +202,20 @@ const std::vector<MemberNumbers>& Lab::worth() {
     const RunWorth run = read_run_worth(folder_.read(file_.worth_file), file_.worth_file);
     if (run.worth.empty() || run.worth.front().size() != belief().members.size())
       throw InputError(folder_.path(file_.worth_file) + ": of another belief than " + file_.belief);
+    std::vector<std::size_t> rows;  // of the choices
+    std::vector<Problem> unknown;
     for (const LabDesign& d : designs_) {
+      if (!d.choice) continue;
       const auto at = std::find(run.designs.begin(), run.designs.end(), d.name);
-      if (!d.choice || at == run.designs.end()) continue;
-      const auto i = static_cast<std::size_t>(at - run.designs.begin());
+      if (at == run.designs.end())
+        unknown.push_back({folder_.path(kLabFile), 0, 0, "choice",
+                           fmt::format("\"{}\" is decided among, but {} does not say what it is "
+                                       "worth: set it to false",
+                                       d.name, file_.worth_file)});
+      rows.push_back(static_cast<std::size_t>(at - run.designs.begin()));
+    }
+    if (!unknown.empty()) throw InputError(unknown);
+    for (const std::size_t i : rows) {
       worth_.push_back({run.worth[i], 0, {"of the run", run.by_skin[i]}});
       kept_.push_back(run.kept[i]);
     }
@@ -234,26 +274,31 @@ PlanRecord Lab::next(const NextOptions& options) {
   return plan;
 }
 
-// Those that were not told before. Throws InputError for one that contradicts what was.
-std::vector<FrictionReading> Lab::new_ones(std::vector<FrictionReading> readings, bool replace,
-                                           Told& told) const {
+// Takes those into the record that were not told before. Throws InputError for one that contradicts
+// what was told.
+void Lab::take_new(const std::vector<FrictionReading>& rows, const TellOptions& options,
+                   Told& told) const {
   const std::vector<std::string>& in_belief = belief().readings;
-  std::map<std::string, std::string> known, said;
-  for (const JournalEntry& e : entries_) {
-    if (!e.tell) continue;
-    for (const FrictionReading& r : e.tell->readings) {
-      const std::string where = e.tell->file + " of " + e.tell->date;
-      known[r.key] = where;
-      if (const std::string id = identity(r); !id.empty()) said[id] = where;
-    }
-  }
-  std::vector<FrictionReading> out;
+  const std::vector<ToldReading> before = in_force(entries_);
+  const ToldBefore known(before);
   std::vector<Problem> problems;
-  std::set<std::string> of_file;
-  for (FrictionReading& r : readings) {
-    if (const auto before = known.find(r.key); before != known.end()) {
+  const auto problem = [&](const FrictionReading& r, const char* key, const std::string& message) {
+    problems.push_back({told.record.file, r.line, 0, key, message});
+  };
+  std::set<std::string> stay, of_file;
+  for (const FrictionReading& row : rows) {
+    const FrictionReading r = row.day.empty() ? as_of_day(row, options.day) : row;
+    auto found = known.by_key.find(r.key);
+    // Of a table that grows, --day is that of the new touches; of one that is told anew, of all.
+    if (found == known.by_key.end() && r.repeat > 0) {
+      found = known.by_key.find(row.key);
+      if (found != known.by_key.end() && found->second.of->sha256 == told.record.sha256)
+        found = known.by_key.end();
+    }
+    if (found != known.by_key.end()) {
       ++told.already;
-      told.already_of = before->second;
+      told.already_of = found->second.where();
+      stay.insert(found->second.reading->key);
       continue;
     }
     const auto is_in_belief = [&](const std::string& text) {
@@ -265,21 +310,36 @@ std::vector<FrictionReading> Lab::new_ones(std::vector<FrictionReading> readings
       ++told.fitted;
       continue;
     }
-    const std::string id = identity(r);
-    if (const auto before = said.find(id); !id.empty() && before != said.end() && !replace)
-      problems.push_back({told.record.file, r.line, 0, "",
-                          fmt::format("another value of repeat {} of this experiment was told in "
-                                      "{}: number it as a further repeat, or --replace",
-                                      r.repeat, before->second)});
-    if (!id.empty() && !of_file.insert(id).second)
-      problems.push_back({told.record.file, r.line, 0, "repeat",
-                          fmt::format("repeat {} of this experiment stands twice in the file, with "
-                                      "two values",
-                                      r.repeat)});
-    out.push_back(std::move(r));
+    const auto [first, last] = known.by_identity.equal_range(identity(r));
+    std::set<std::string> days;
+    for (auto other = first; other != last; ++other) days.insert(other->second.reading->day);
+    if (!days.empty() && !options.replace)
+      problem(r, "",
+              fmt::format("another value of repeat {} of this experiment was told in {}: number it "
+                          "as a further repeat{}, or --replace",
+                          r.repeat, std::prev(last)->second.where(),
+                          r.day.empty() ? ", say of which day it is" : ""));
+    else if (r.day.empty() && days.size() > 1)
+      problem(r, "day",
+              fmt::format("not said, and repeat {} of this experiment was told of {}", r.repeat,
+                          join_names({days.begin(), days.end()}, " and of ")));
+    const std::string else_day = days.empty() ? options.date : *days.begin();
+    FrictionReading taken = r.day.empty() ? as_of_day(r, else_day) : r;
+    if (const std::string id = identity(taken); !id.empty() && !of_file.insert(id).second)
+      problem(r, "repeat",
+              fmt::format("repeat {} of this experiment stands twice in the file, with two values",
+                          r.repeat));
+    told.record.readings.push_back(std::move(taken));
   }
   if (!problems.empty()) throw InputError(problems);
-  return out;
+  if (!options.replace) return;
+  for (const ToldReading& t : before) {
+    if (t.of->sha256 == told.record.sha256 && !stay.contains(t.reading->key))
+      told.record.replaced.push_back(t.reading->key);
+  }
+  if (const auto count = static_cast<long long>(told.record.replaced.size()); count > 0)
+    told.record.notes.push_back(fmt::format(
+        "no longer counted: {} that this file was told as before", counted(count, "reading")));
 }
 
 Told Lab::tell(const std::string& path, const TellOptions& options,
@@ -290,13 +350,17 @@ Told Lab::tell(const std::string& path, const TellOptions& options,
   told.record.file = std::filesystem::path(path).filename().string();
   told.record.sha256 = sha256(bytes);
   told.record.trace = is_trace(bytes);
+  TellOptions meant = options;
   for (const JournalEntry& e : entries_) {
     if (!e.tell || e.tell->sha256 != told.record.sha256) continue;
-    told.already = static_cast<int>(e.tell->readings.size());
-    told.already_of = e.tell->file + " of " + e.tell->date;
-    if (told.record.trace) return told;  // a record is one reading, whatever is said of it
+    if (!options.replace) {  // the same readings, whatever is said of them
+      told.already = static_cast<int>(e.tell->readings.size());
+      told.already_of = e.tell->file + " of " + e.tell->date;
+      return told;
+    }
+    meant.date = e.tell->date;  // of which it is where it says no day
+    break;
   }
-  told.already = 0;
   const std::vector<PlannedExperiment> plan = planned();
   const MatchContext context{file_, designs_, plan};
   Matched matched;
@@ -314,8 +378,8 @@ Told Lab::tell(const std::string& path, const TellOptions& options,
   }
   told.empty = matched.empty;
   told.record.notes.insert(told.record.notes.end(), matched.notes.begin(), matched.notes.end());
-  told.record.readings = new_ones(std::move(matched.readings), options.replace, told);
-  if (told.record.readings.empty()) return told;
+  take_new(matched.readings, meant, told);
+  if (told.record.readings.empty() && told.record.replaced.empty()) return told;
   told.before = decision(options.date);
   std::vector<Experiment> of_file;
   for (const FrictionReading& r : told.record.readings) of_file.push_back(r.experiment);

@@ -95,8 +95,8 @@ class Lab {
   void stand();
   DecisionRecord decision(const std::string& date);
   void keep(JournalEntry entry);
-  std::vector<FrictionReading> new_ones(std::vector<FrictionReading> readings, bool replace,
-                                        Told& told) const;
+  void take_new(const std::vector<FrictionReading>& rows, const TellOptions& options,
+                Told& told) const;
 
   Folder folder_;
   SoleWriter sole_;

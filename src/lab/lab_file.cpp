@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/check.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "config/reader.h"
@@ -49,6 +50,17 @@ LabFile lab_of(Document& document) {
 }
 
 }  // namespace
+
+std::vector<FingerState> finger_states(const CandidateConditions& conditions) {
+  const std::vector<std::string>& names = finger_state_names();
+  std::vector<FingerState> out;
+  for (const std::string& state : conditions.states) {
+    const auto found = std::find(names.begin(), names.end(), state);
+    PAPILLA_CHECK(found != names.end(), "a lab's states are looked at when it is read");
+    out.push_back(static_cast<FingerState>(found - names.begin()));
+  }
+  return out;
+}
 
 void fields(FieldVisitor& v, CandidateConditions& s) {
   v.numbers({"load", "N", 1e-6, 100, "normal forces that can be set"}, s.load);

@@ -21,6 +21,8 @@ struct CandidateConditions {
   std::vector<std::string> states;
 };
 
+std::vector<FingerState> finger_states(const CandidateConditions& conditions);
+
 struct DesignEntry {
   std::string name, file;
   bool choice = true;  // one of those that are decided among

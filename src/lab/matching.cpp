@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "base/units.h"
 
 namespace papilla::lab {
 namespace {
@@ -65,7 +66,7 @@ class Matcher {
     else
       by_design(design, row, out);
     out.finger = said(row.finger, options_.finger, "1");
-    out.day = said(row.day, options_.day, options_.date);
+    out.day = row.day;
     out.repeat = row.repeat;
     out.line = row.line;
     out.off = row.off.value_or(0);
@@ -164,23 +165,40 @@ class Matcher {
     if (here.empty()) return unknown("field", field, known);
     out.field = field;
     out.experiment.design = design_index(here.front()->design);
+    std::vector<Conditions> all, planned;  // of the field; those of them that the row is near
     for (const FieldEntry* f : here) {
-      const Conditions planned = conditions_of(*f), is = over(row, planned, out.experiment.design);
-      if (!near(is, planned)) continue;
-      as_planned_ += !(is == planned);
-      out.experiment.at = planned;
-      if (here.size() == 1 || says_conditions(row)) return;
+      all.push_back(conditions_of(*f));
+      const bool can_be = all.back().driven() || !row.on;
+      if (can_be && near(over(row, all.back(), out.experiment.design), all.back()))
+        planned.push_back(all.back());
     }
-    if (here.size() > 1 && !says_conditions(row))
-      return problem("field", fmt::format("{} is to be measured under {} conditions: say which "
-                                          "(load, humidity, voltage)",
-                                          field, here.size()));
-    out.experiment.at =
-        snapped_to_candidates(over(row, conditions_of(*here.front()), out.experiment.design));
+    const std::vector<Conditions>& meant = planned.empty() ? all : planned;
+    if (const std::string open = left_open(row, meant); !open.empty())
+      return problem("field", fmt::format("{} is to be measured at more than one {}: say which, in "
+                                          "a column; in a record by a line `# humidity: 75 %`, "
+                                          "`# state: wet` or `# carrier: 5 kHz`",
+                                          field, open));
+    const Conditions is = over(row, meant.front(), out.experiment.design);
+    as_planned_ += !planned.empty() && !(is == meant.front());
+    out.experiment.at = planned.empty() ? snapped_to_candidates(is) : meant.front();
   }
 
-  static bool says_conditions(const MeasuredRow& row) {
-    return row.load || row.relative_humidity || row.voltage || row.frequency || row.state;
+  // What a row does not say and some conditions differ in: "load and humidity". Friction without
+  // voltage is the same whatever the voltage is.
+  static std::string left_open(const MeasuredRow& row, const std::vector<Conditions>& among) {
+    std::vector<std::string> out;
+    const auto compare = [&](bool is_said, const char* name, auto Conditions::*quantity) {
+      const bool differ = std::any_of(among.begin(), among.end(), [&](const Conditions& c) {
+        return c.*quantity != among.front().*quantity;
+      });
+      if (!is_said && differ) out.emplace_back(name);
+    };
+    compare(row.load.has_value(), "load", &Conditions::load);
+    compare(row.relative_humidity.has_value(), "humidity", &Conditions::relative_humidity);
+    compare(row.voltage || !row.on, "voltage", &Conditions::voltage);
+    compare(row.frequency || !row.on, "frequency", &Conditions::frequency);
+    compare(row.state.has_value(), "state", &Conditions::state);
+    return join_names(out, " and ");
   }
 
   static Conditions conditions_of(const FieldEntry& f) {
@@ -197,23 +215,21 @@ class Matcher {
       return unknown("design", name, known);
     }
     const CandidateConditions& c = context_.file.conditions;
-    const auto needed = [&](const std::optional<double>& is, const std::vector<double>& known,
-                            const char* what) {
+    const auto needed = [&](const auto& is, const auto& known, const char* what) {
       if (is) return *is;
       if (known.size() == 1) return known.front();
-      problem(what, "not said, and the lab has more than one");
-      return 0.0;
+      problem(what, known.empty() ? "not said" : "not said, and the lab has more than one");
+      return std::decay_t<decltype(*is)>{};
     };
     Conditions at;
     at.load = needed(row.load, c.load, "load");
     at.relative_humidity = needed(row.relative_humidity, c.humidity, "humidity");
     at.voltage = needed(row.voltage, c.voltage, "voltage");
     if (at.driven())
-      at.frequency =
-          row.frequency && c.frequency.empty()
-              ? frequency_of(*row.frequency, index)
-              : row.frequency.value_or(c.frequency.size() == 1 ? c.frequency.front() : 0);
-    at.state = row.state.value_or(FingerState::Clean);
+      at.frequency = c.frequency.empty() ? frequency_of(row.frequency.value_or(0), index)
+                     : row.on            ? needed(row.frequency, c.frequency, "frequency")
+                                         : row.frequency.value_or(c.frequency.front());
+    at.state = needed(row.state, finger_states(c), "state");
     out.experiment = {index, snapped_to_candidates(at)};
   }
 
@@ -263,6 +279,23 @@ void by_name(const std::string& file, const MatchContext& context, MeasuredRow& 
       if (f.field == word) row.field = word;
     }
   }
+}
+
+// Conditions that a record has no column of, in lines before its header. A frequency there may be
+// that of the samples, so that of the drive has a name of its own.
+void by_head(const Trace& trace, MeasuredRow& row) {
+  const auto said = [&](const char* key) {
+    const auto found = trace.said.find(key);
+    return found == trace.said.end() ? std::string() : found->second;
+  };
+  if (const auto humidity = parse_quantity(said("humidity")); humidity && humidity->unit == "%")
+    row.relative_humidity = humidity->si;
+  if (const auto carrier = parse_quantity(said("carrier"));
+      carrier && find_unit(carrier->unit)->same_dimension(*find_unit("Hz")))
+    row.frequency = carrier->si;
+  const std::vector<std::string>& names = finger_state_names();
+  if (const auto state = std::find(names.begin(), names.end(), said("state")); state != names.end())
+    row.state = static_cast<FingerState>(state - names.begin());
 }
 
 // The friction at the planned load, where the finger pressed a little otherwise: in proportion.
@@ -322,6 +355,7 @@ Matched match_trace(const Trace& trace, const TraceReading& reading, const Match
     const auto found = trace.said.find(key);
     if (found != trace.said.end()) *target = found->second;
   }
+  by_head(trace, row);
   if (const auto repeat = trace.said.find("repeat"); repeat != trace.said.end())
     row.repeat = std::max(0, std::atoi(repeat->second.c_str()));
   row.load = rounded(reading.load, kLoadStep);
@@ -350,6 +384,14 @@ Matched match_trace(const Trace& trace, const TraceReading& reading, const Match
   found->key = key_of(*found) + " | record";
   out.readings.push_back(std::move(*found));
   return out;
+}
+
+FrictionReading as_of_day(FrictionReading reading, const std::string& day) {
+  const std::size_t which = reading.key.rfind(" | ");  // of several alike, or a record
+  const std::string tail = which == std::string::npos ? "" : reading.key.substr(which);
+  reading.day = day;
+  reading.key = key_of(reading) + tail;
+  return reading;
 }
 
 }  // namespace papilla::lab

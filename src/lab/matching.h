@@ -26,19 +26,25 @@ struct MatchContext {
 struct TellOptions {
   std::string experiment, field, design, finger, day;
   std::string date;      // of today, "2026-03-01"; the day where nothing else says it
-  bool replace = false;  // readings that contradict earlier ones take their place
+  bool replace = false;  // readings take the place of earlier ones that they contradict, and of
+                         // what the same file was told as before
 };
 
 struct Matched {
-  std::vector<FrictionReading> readings;  // in the order of the rows
-  int empty = 0;                          // rows that are not measured yet
+  // In the order of the rows; the day "" where the row itself does not say it.
+  std::vector<FrictionReading> readings;
+  int empty = 0;  // rows that are not measured yet
   std::vector<std::string> notes;
 };
 
-// Throws InputError with every row that is of no known experiment, each with its line.
+// Throws InputError with every row that is of no known experiment, or could be of several, each
+// with its line.
 Matched match_table(const MeasuredTable& table, const MatchContext& context,
                     const TellOptions& options, const std::string& file);
 Matched match_trace(const Trace& trace, const TraceReading& reading, const MatchContext& context,
                     const TellOptions& options, const std::string& file);
+
+// The same reading as of another day, "": as if none were said. Its key follows.
+FrictionReading as_of_day(FrictionReading reading, const std::string& day);
 
 }  // namespace papilla::lab

@@ -87,11 +87,17 @@ std::vector<double> listed(const MemberNumbers& numbers) {
   return out;
 }
 
+// How many deviations a number has: by the skins of the design's own level, and by those that each
+// member is moved on.
+struct Deviations {
+  std::size_t own = 0, all = 0;
+};
+
 // skins: what the deviations are of.
-MemberNumbers unlisted(const double* from, std::size_t members, std::size_t deviations,
+MemberNumbers unlisted(const double* from, std::size_t members, const Deviations& deviations,
                        const std::string& skins) {
   const double *at = from + 1, *of_skins = at + members;
-  return {{at, of_skins}, *from, {skins, {of_skins, of_skins + deviations}}};
+  return {{at, of_skins}, *from, {skins, {of_skins, of_skins + deviations.all}}, deviations.own};
 }
 
 double moved_off(const Points& own, const Points& few, const Points& member) {
@@ -112,6 +118,19 @@ double moved_on(const Points& own, const Points& few, const Points& member) {
 }
 
 }  // namespace
+
+// Eq. lab.3: what a logarithm moves by is what its number does as a share of it, of a member's move
+// of that member's number.
+MemberNumbers logarithms(const MemberNumbers& numbers) {
+  MemberNumbers out = numbers;
+  out.own = std::log(numbers.own);
+  for (double& x : out.at) x = std::log(x);
+  std::vector<double>& deviations = out.sampling.deviations;
+  const std::size_t own = numbers.own_skins, each = (deviations.size() - own) / numbers.at.size();
+  for (std::size_t i = 0; i < deviations.size(); ++i)
+    deviations[i] /= i < own ? numbers.own : numbers.at[(i - own) / each];
+  return out;
+}
 
 MemberModel::MemberModel(Belief belief, const std::string& folder, int threads,
                          std::function<void(const std::string&)> note)
@@ -166,13 +185,12 @@ DesignRuns runs_of(const Design& design, const Belief& belief, int threads) {
   return out;
 }
 
-// How many deviations a number has, and whose: those of the designs of a seed and a level are of
-// the same skins.
-std::size_t deviations_of(const Design& design, std::size_t members) {
+Deviations deviations_of(const Design& design, std::size_t members) {
   const int skins = fidelity_of(design).skins;
-  return static_cast<std::size_t>(skins) +
-         members * static_cast<std::size_t>(std::min(skins, kReadingSkins));
+  const auto own = static_cast<std::size_t>(skins);
+  return {own, own + members * static_cast<std::size_t>(std::min(skins, kReadingSkins))};
 }
+// Those of the designs of a seed and a level are the same.
 std::string skins_of(const Design& design) {
   const Fidelity f = fidelity_of(design);
   return fmt::format("{} skins of seed {}", f.skins, f.seed);
@@ -196,8 +214,9 @@ std::vector<double> MemberModel::kept(const std::string& question, std::size_t s
 
 MemberFriction MemberModel::friction(const LabDesign& design, const Conditions& at) {
   const Design there = under_conditions(design.design, at);
-  const std::size_t members = belief_.members.size(), deviations = deviations_of(there, members),
-                    size = 1 + members + deviations;
+  const std::size_t members = belief_.members.size();
+  const Deviations deviations = deviations_of(there, members);
+  const std::size_t size = 1 + members + deviations.all;
   const std::vector<double> answer =
       kept("friction with what skins leave open\n" + write_toml(to_table(there)), 2 * size, [&] {
         if (note_) note_(fmt::format("{}, {}, at {} members", design.name, text(at), members));
@@ -214,11 +233,12 @@ MemberFriction MemberModel::friction(const LabDesign& design, const Conditions& 
 MemberNumbers MemberModel::worth(const LabDesign& design, const MetricExpression& expression) {
   Design own = design.design;
   own.finger.belief.clear();
-  const std::size_t members = belief_.members.size(), deviations = deviations_of(own, members);
+  const std::size_t members = belief_.members.size();
+  const Deviations deviations = deviations_of(own, members);
   const std::vector<double> answer = kept(
       "worth with what skins leave open " + metric_text(expression) + "\n" +
           write_toml(to_table(own)),
-      1 + members + deviations, [&] {
+      1 + members + deviations.all, [&] {
         if (note_)
           note_(fmt::format("{}: {} at {} members", design.name, metric_text(expression), members));
         const double sign = better_direction(expression) == Better::Lower ? -1 : 1;

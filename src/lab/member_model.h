@@ -21,7 +21,12 @@ struct MemberNumbers {
   std::vector<double> at;  // [member]
   double own = 0;          // by the design's own finger at its own level
   Sampling sampling;       // of that
+  // Deviations of `sampling` by the skins of the own level, which come first; as many of each
+  // member's move follow, member by member.
+  std::size_t own_skins = 0;
 };
+// Of numbers above 0: their logarithms.
+MemberNumbers logarithms(const MemberNumbers& numbers);
 
 // Of one experiment [N]; on of an undriven one: NaN.
 struct MemberFriction {

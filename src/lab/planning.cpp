@@ -15,6 +15,8 @@ namespace {
 constexpr int kDraws = 384;
 // A batch that changes the choice less often than this changes no decision.
 constexpr double kNoChange = 0.05;
+// Touches by which that is judged, however few a batch is cut to.
+constexpr std::size_t kJudgedBy = 10;
 
 std::vector<Candidate> candidates_of(const Standing& s, const ResponseTable& table,
                                      const std::vector<Experiment>& experiments,
@@ -103,6 +105,20 @@ std::vector<PlannedExperiment> planned_of(const Standing& s, const ResponseTable
 
 }  // namespace
 
+std::optional<StopReason> reason_to_stop(const std::vector<Candidate>& candidates,
+                                         const Batch& batch, const Costs& costs, double small,
+                                         DecisionGain& gain) {
+  if (gain.regret_now() < small) return StopReason::Regret;
+  const auto changes_nothing = [&] {
+    return gain.p_change() < kNoChange && gain.regret_now() - gain.regret_after() < small;
+  };
+  const std::size_t count = batch.chosen.size();
+  if (changes_nothing() && batch.end != BatchEnd::Nothing && count < kJudgedBy)
+    choose_batch(candidates, gain, {static_cast<int>(kJudgedBy - count), 0, costs, 0});
+  if (changes_nothing()) return StopReason::NoChange;
+  return std::nullopt;
+}
+
 PlanRecord plan_batch(const Standing& s, const ResponseTable& table,
                       const std::vector<Experiment>& experiments, const LabFile& file,
                       const NextOptions& options, std::size_t numbered) {
@@ -121,18 +137,20 @@ PlanRecord plan_batch(const Standing& s, const ResponseTable& table,
   } else {
     gain = parameters_gain(s.ensemble, *s.evidence, s.instrument);
   }
-  const std::vector<Chosen> batch =
+  const Batch batch =
       choose_batch(candidates, *gain, {options.count, options.seconds, file.costs, 0});
-  plan.experiments = planned_of(s, table, candidates, batch, file, numbered);
-  for (const Chosen& c : batch) plan.seconds += c.seconds;
+  plan.ended = batch.end;
+  plan.shortest = batch.shortest;
+  plan.experiments = planned_of(s, table, candidates, batch.chosen, file, numbered);
+  for (const Chosen& c : batch.chosen) plan.seconds += c.seconds;
   if (!decision) return plan;
   plan.regret_now = decision->regret_now();
   plan.regret_after = decision->regret_after();
   plan.p_change = decision->p_change();
-  const double small = file.stop * std::abs(s.best_worth);
-  plan.stop = plan.regret_now < small ||
-              (plan.p_change < kNoChange && plan.regret_now - plan.regret_after < small);
-  add_outcomes(candidates, batch, *decision, table, plan.experiments);
+  add_outcomes(candidates, batch.chosen, *decision, table, plan.experiments);
+  plan.stop_reason =
+      reason_to_stop(candidates, batch, file.costs, file.stop * std::abs(s.best_worth), *decision);
+  plan.stop = plan.stop_reason.has_value();
   return plan;
 }
 

@@ -1,6 +1,7 @@
 // From what belief says now to the batch to measure.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/rooms.h"
@@ -12,5 +13,12 @@ namespace papilla::lab {
 PlanRecord plan_batch(const Standing& standing, const ResponseTable& table,
                       const std::vector<Experiment>& experiments, const LabFile& file,
                       const NextOptions& options, std::size_t numbered);
+
+// Why more experiments than a batch that `gain` has taken are not worth it; nothing where they are.
+// What a short batch does not change ten touches may: those beyond it are taken into `gain`.
+// small: a regret that is not worth measuring.
+std::optional<StopReason> reason_to_stop(const std::vector<Candidate>& candidates,
+                                         const Batch& batch, const Costs& costs, double small,
+                                         DecisionGain& gain);
 
 }  // namespace papilla::lab

@@ -19,6 +19,14 @@ Json json_of(const Experiment& e) {
           {"state", finger_state_names()[static_cast<std::size_t>(e.at.state)]}};
 }
 
+// The one of these names that stands there.
+template <class Named>
+Named named(const Json& j, const std::vector<std::string>& names, const char* none) {
+  const auto found = std::find(names.begin(), names.end(), j.get<std::string>());
+  if (found == names.end()) throw InputError(none);
+  return static_cast<Named>(found - names.begin());
+}
+
 Experiment experiment_of(const Json& j) {
   Experiment e;
   e.design = j.at("design");
@@ -26,10 +34,7 @@ Experiment experiment_of(const Json& j) {
   e.at.relative_humidity = j.at("humidity");
   e.at.voltage = j.at("voltage");
   e.at.frequency = j.at("frequency");
-  const std::vector<std::string>& names = finger_state_names();
-  const auto found = std::find(names.begin(), names.end(), j.at("state").get<std::string>());
-  if (found == names.end()) throw InputError("a state that is none");
-  e.at.state = static_cast<FingerState>(found - names.begin());
+  e.at.state = named<FingerState>(j.at("state"), finger_state_names(), "a state that is none");
   return e;
 }
 
@@ -73,6 +78,10 @@ Json json_of(const PlanRecord& p) {
            {"regret_after", p.regret_after},
            {"p_change", p.p_change},
            {"stop", p.stop}};
+  if (p.stop_reason)
+    out["stop_reason"] = stop_reason_names()[static_cast<std::size_t>(*p.stop_reason)];
+  if (p.ended) out["ended"] = batch_end_names()[static_cast<std::size_t>(*p.ended)];
+  if (p.shortest > 0) out["shortest"] = p.shortest;
   for (const PlannedExperiment& e : p.experiments) out["experiments"].push_back(json_of(e));
   return out;
 }
@@ -80,15 +89,18 @@ Json json_of(const PlanRecord& p) {
 PlanRecord plan_of(const Json& j) {
   PlanRecord p;
   p.date = j.at("date");
-  const auto aim =
-      std::find(aim_names().begin(), aim_names().end(), j.at("aim").get<std::string>());
-  if (aim == aim_names().end()) throw InputError("an aim that is none");
-  p.aim = static_cast<Aim>(aim - aim_names().begin());
+  p.aim = named<Aim>(j.at("aim"), aim_names(), "an aim that is none");
   p.seconds = j.at("seconds");
   p.regret_now = j.at("regret_now");
   p.regret_after = j.at("regret_after");
   p.p_change = j.at("p_change");
   p.stop = j.at("stop");
+  if (j.contains("stop_reason"))
+    p.stop_reason = named<StopReason>(j.at("stop_reason"), stop_reason_names(),
+                                      "a reason to stop that is none");
+  if (j.contains("ended"))
+    p.ended = named<BatchEnd>(j.at("ended"), batch_end_names(), "an end of a batch that is none");
+  p.shortest = j.value("shortest", 0.0);
   for (const Json& e : j.at("experiments"))
     p.experiments.push_back({e.at("id"), e.at("field"), experiment_of(e.at("experiment")),
                              e.at("repeats"), e.at("gain"), outcomes_of(e.at("off")),
@@ -114,11 +126,13 @@ Json json_of(const TellRecord& t) {
                                {"on_sd", r.on_sd},
                                {"line", r.line},
                                {"key", r.key}});
+  if (!t.replaced.empty()) out["replaced"] = t.replaced;
   return out;
 }
 
 TellRecord tell_of(const Json& j) {
   TellRecord t{j.at("date"), j.at("file"), j.at("sha256"), j.at("trace"), {}, j.at("notes")};
+  t.replaced = j.value("replaced", t.replaced);
   for (const Json& r : j.at("readings")) {
     FrictionReading one{experiment_of(r.at("experiment")),
                         r.at("id"),
@@ -165,6 +179,11 @@ DecisionRecord decision_of(const Json& j) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& stop_reason_names() {
+  static const std::vector<std::string> names{"regret", "no change"};
+  return names;
+}
 
 std::string entry_text(const JournalEntry& entry) {
   Json out = Json::object();

@@ -25,6 +25,13 @@ struct PlannedExperiment {
   std::vector<double> expected_off, expected_on;  // [N]: median and 95 % interval by belief
 };
 
+// Why no more experiments are worth it.
+enum class StopReason {
+  Regret,    // what is expected to be lost is below what is worth measuring
+  NoChange,  // what can be measured changes no decision, and saves less than that
+};
+const std::vector<std::string>& stop_reason_names();  // "regret", "no change"
+
 struct PlanRecord {
   std::string date;
   Aim aim = Aim::Decision;
@@ -33,6 +40,9 @@ struct PlanRecord {
   double regret_now = 0, regret_after = 0;  // expected, without a decision 0
   double p_change = 0;                      // that the readings choose another design
   bool stop = false;                        // no more experiments are worth it
+  std::optional<StopReason> stop_reason;    // none: no stop, or a plan of an older program
+  std::optional<BatchEnd> ended;            // none: a plan of an older program
+  double shortest = 0;                      // of what took too long for the time [s]
 };
 
 // A friction that was measured, off and on where both were.
@@ -52,6 +62,7 @@ struct TellRecord {
   bool trace = false;
   std::vector<FrictionReading> readings;  // new ones
   std::vector<std::string> notes;
+  std::vector<std::string> replaced{};  // keys of what the same file was told as before
 };
 
 // What belief says of the designs at a time.

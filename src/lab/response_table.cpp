@@ -38,15 +38,12 @@ void ResponseTable::lay(const std::vector<Experiment>& experiments) {
 }
 
 std::optional<std::size_t> ResponseTable::add_row(const MemberNumbers& friction) {
-  std::vector<double> row;
   for (const double f : friction.at) {
     if (!(f > 0) || !std::isfinite(f)) return std::nullopt;
-    row.push_back(std::log(f));
   }
-  responses_.push_back(std::move(row));
-  Sampling share = friction.sampling;  // of the friction: what its logarithm moves by
-  for (double& d : share.deviations) d /= friction.own;
-  sampling_.push_back(std::move(share));
+  MemberNumbers logs = logarithms(friction);
+  responses_.push_back(std::move(logs.at));
+  sampling_.push_back(std::move(logs.sampling));
   return responses_.size() - 1;
 }
 

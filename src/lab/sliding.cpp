@@ -56,6 +56,7 @@ class Finder {
     sampling();
     drive();
     strokes();
+    find_directions();
     for (Stroke& s : out_.strokes) judge(s);
     tell();
     return std::move(out_);
@@ -154,6 +155,7 @@ class Finder {
       end_at(i);
       now = sign;
       stroke = {};
+      stroke.direction = sign;  // of the motion
       stroke.all.begin = i;
     }
     end_at(moves.size());
@@ -163,13 +165,34 @@ class Finder {
                                        kFewestOfStroke));
   }
 
+  static Span second_half(const Stroke& s) { return {s.all.begin + s.all.size() / 2, s.all.end}; }
+
+  // From those of the motion to those of the force, which may point the other way: of the finger or
+  // of the plate. Motions to and fro say so whatever the sensor's zero is; a zero beyond the
+  // friction, by which the force itself does not turn, is found between both.
+  void find_directions() {
+    std::vector<double> plateaus;
+    double sum[2] = {0, 0}, count[2] = {0, 0};  // back, forth
+    for (const Stroke& s : out_.strokes) {
+      plateaus.push_back(thinned_quantile(trace_.tangential, second_half(s), 0.5));
+      sum[s.direction > 0] += plateaus.back();
+      ++count[s.direction > 0];
+    }
+    const bool both = count[0] > 0 && count[1] > 0;
+    const bool opposed = both ? sum[1] / count[1] < sum[0] / count[0] : sum[1] < sum[0];
+    bool turns = true;
+    for (std::size_t k = 0; k < plateaus.size(); ++k) {
+      if (opposed) out_.strokes[k].direction = -out_.strokes[k].direction;
+      turns &= out_.strokes[k].direction * plateaus[k] >= 0;
+    }
+    if (both && !turns) zero_ = (sum[0] / count[0] + sum[1] / count[1]) / 2;
+  }
+
   // Onset, plateau and slips of a stroke. Eq. lab.11, lab.12
   void judge(Stroke& s) const {
-    const Span last{s.all.begin + s.all.size() / 2, s.all.end};
-    const double plateau = thinned_quantile(trace_.tangential, last, 0.5);
-    s.direction = plateau < 0 ? -1 : 1;
-    const auto along = [&](std::size_t i) { return s.direction * trace_.tangential[i]; };
-    const double level = s.direction * plateau;
+    const Span last = second_half(s);
+    const auto along = [&](std::size_t i) { return s.direction * (trace_.tangential[i] - zero_); };
+    const double level = s.direction * (thinned_quantile(trace_.tangential, last, 0.5) - zero_);
     s.onset = s.all.begin;
     while (s.onset < last.begin && along(s.onset) < kOnset * level) ++s.onset;
     const auto after = static_cast<std::size_t>(kAfterOnset * static_cast<double>(s.all.size()));
@@ -228,6 +251,7 @@ class Finder {
 
   const Trace& trace_;
   Sliding out_;
+  double zero_ = 0;  // of the sensor [N], where it is beyond the friction
 };
 
 }  // namespace

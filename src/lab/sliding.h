@@ -21,9 +21,9 @@ struct Span {
 
 struct Stroke {
   Span all, steady;                // steady: empty where the finger never slides steadily
-  int direction = 1;               // sign of the tangential force
+  int direction = 1;               // sign of the tangential force less the sensor's zero
   std::size_t onset = 0;           // the sample at which sliding begins
-  double peak = 0;                 // static friction [N], at the onset
+  double peak = 0;                 // static friction [N], at the onset; the zero may be in it
   std::vector<std::size_t> slips;  // samples at which a slip begins
   double slip = 0;                 // median fall of the force in a slip [N]
 

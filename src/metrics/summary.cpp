@@ -70,8 +70,9 @@ ErrorSamples samples_of(const Metric& metric, const Reading& number, Change kind
     if (const auto v = number(points)) without.push_back(*v);
   }
   if (without.size() == response.without.size()) out.sampling = jackknife_samples(*value, without);
+  const ControlRuns& controls = response.controls;
   const ControlledChange change =
-      controlled_change(response.controls, grid_law(*quantity), number, kind);
+      controlled_change(controls, grid_law(*quantity, controls.friction_by_load), number, kind);
   const double of = kind == Change::Relative ? std::abs(*value) : 1;
   for (const double c : change.grid) out.grid.push_back(c * of);
   for (const double c : change.method) out.method.push_back(c * of);

@@ -70,7 +70,8 @@ Candidate::Candidate(const Regions& regions, FingerState state, const RankOption
   }
   scene_.finger.state = state;
   fidelity_.threads = options.threads;
-  fidelity_.skins = options.batch;
+  // A region that met no skin yet would be in no number.
+  fidelity_.skins = std::max(options.batch, static_cast<int>(regions.size()));
 }
 
 // A look for every skin: the next arrangements where something is random.
@@ -177,15 +178,17 @@ void Candidate::step() {
   }
 }
 
-// The next skins of the common sequence, as many as the fidelity says, in the moved scene.
+// The next skins of the common sequence, as many as the fidelity says, in the moved scene: skin by
+// skin to the next region, so that all have as many but for one.
 void Candidate::solve(const std::function<void(Scene&)>& move, Fidelity fidelity, PatchSet& patches,
                       std::vector<RegionLaws>& known) const {
   const int count = static_cast<int>(regions_.size()), skins = fidelity.skins;
+  const int next = patches.skins();
   known.resize(regions_.size());
-  for (int r = 0; r < count; ++r) {
+  for (int k = 0; k < std::min(count, skins); ++k) {
+    const int r = (next + k) % count;
     fidelity.first_skin = patches.skins();
-    fidelity.skins = skins * (r + 1) / count - skins * r / count;
-    if (fidelity.skins == 0) continue;
+    fidelity.skins = (skins - k + count - 1) / count;
     const Design& region = regions_[static_cast<std::size_t>(r)];
     Scene scene = scene_of(region);
     scene.finger.state = scene_.finger.state;

@@ -26,7 +26,8 @@ class Candidate {
   // each criterion. Eq. ranking.5, ranking.8
   void step();
   const StepSamples& steps(std::size_t criterion) const { return steps_[criterion]; }
-  std::vector<double> member_weights() const;  // of belief; empty: the finger has none
+  std::vector<double> member_weights() const;    // of belief; empty: the finger has none
+  int batch() const { return fidelity_.skins; }  // skins of a step
 
  private:
   // What is measured once of each region, since it is the same on all skins.

@@ -127,4 +127,20 @@ void require_same_conditions(const std::vector<ConditionDifference>& differences
           : join_names(sets, " ")));
 }
 
+FingerState common_state(const std::vector<Regions>& candidates) {
+  std::vector<FingerState> found;
+  for (const Regions& regions : candidates) {
+    for (const Design& design : regions) {
+      if (std::find(found.begin(), found.end(), design.finger.state) == found.end())
+        found.push_back(design.finger.state);
+    }
+  }
+  if (found.size() == 1) return found.front();
+  std::vector<std::string> names;
+  for (const FingerState state : found)
+    names.push_back(finger_state_names()[static_cast<std::size_t>(state)]);
+  throw InputError("the designs' fingers are in different states (finger.state), " +
+                   join_names(names) + ": say in which of them, or in which ones, all are judged");
+}
+
 }  // namespace papilla::rank

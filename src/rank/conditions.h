@@ -28,4 +28,8 @@ std::vector<ConditionDifference> condition_differences(const std::vector<Regions
 // Throws InputError, with what would make them equal, unless there are none.
 void require_same_conditions(const std::vector<ConditionDifference>& differences);
 
+// The state that the fingers of all candidates are in (finger.state): where no other is asked for
+// they are judged in it. Throws InputError where they are in different ones.
+FingerState common_state(const std::vector<Regions>& candidates);
+
 }  // namespace papilla::rank

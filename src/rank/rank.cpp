@@ -83,8 +83,9 @@ class StateRanker {
   bool extend(const std::vector<bool>& open) {
     bool more = false;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      if (!open[i] || candidates_[i].skins() + options_.batch > options_.max_skins) continue;
-      candidates_[i].extend();
+      Candidate& candidate = candidates_[i];
+      if (!open[i] || candidate.skins() + candidate.batch() > options_.max_skins) continue;
+      candidate.extend();
       more = true;
     }
     return more;

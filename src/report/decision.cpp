@@ -116,6 +116,10 @@ std::string p_limits_text(const ResultFiles& f, std::size_t design) {
                         decision_of(f).designs[design].p_limits);
 }
 
+std::string wanted_text(const ResultFiles& f) {
+  return percent_stated("probability that the study wants (risk.limits)", f.study.risk.limits);
+}
+
 std::string members_text(const ResultFiles& f) {
   const std::size_t members = decision_of(f).members;
   return stated(count_number("members of belief", members, {}), fmt::format("{}", members));
@@ -213,7 +217,7 @@ std::string limits_sentence(const ResultFiles& f) {
   return fmt::format(
       " With probability {} {} keeps every limit, the highest of the front, where the study wants "
       "{} (risk.limits): loosen a limit or leave more room to it{}.",
-      has, name, percent(wanted), made);
+      has, name, wanted_text(f), made);
 }
 
 // The design whose measurement beside that of the chosen one settles most: what is better where
@@ -318,12 +322,22 @@ std::optional<std::size_t> design_to_measure(const ResultFiles& f) {
 std::string of_the_sure_text(const ResultFiles& f) {
   const Decision& d = decision_of(f);
   const double wanted = f.study.risk.limits;
-  const bool all = std::all_of(d.designs.begin(), d.designs.end(),
-                               [&](const Prospect& p) { return p.p_limits >= wanted - 1e-9; });
-  if (all) return {};
+  std::size_t unsure = 0;
+  for (std::size_t i = 0; i < d.designs.size(); ++i) unsure += d.keeps_limits(i, wanted) ? 0 : 1;
+  if (unsure == 0) return {};
   if (!d.sure(wanted)) return " of those that keep every limit the most surely";
-  return " of those that keep every limit with probability " +
-         percent_stated("probability that the study wants (risk.limits)", wanted) + " or more";
+  return " of those that keep every limit with probability " + wanted_text(f) + " or more";
+}
+
+std::string unsure_limits_text(const ResultFiles& f) {
+  const Decision& d = decision_of(f);
+  const std::size_t shown = f.result.best;
+  if (!d.made() || f.study.constraints.empty() || d.keeps_limits(shown, f.study.risk.limits))
+    return {};
+  return fmt::format(
+      " By what is believed of finger and model it keeps every limit with probability {} only; the "
+      "study wants {} (risk.limits).",
+      p_limits_text(f, shown), wanted_text(f));
 }
 
 std::vector<std::string> decision_grounds(const ResultFiles& f) {

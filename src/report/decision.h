@@ -20,6 +20,9 @@ std::vector<std::string> decision_grounds(const ResultFiles& files);
 // " of those that keep every limit with probability 90 % or more": among which designs the choice
 // is; "" where all do.
 std::string of_the_sure_text(const ResultFiles& files);
+// That the recommended design keeps its limits less surely than the study wants, for the lead; ""
+// where it does, or there are none.
+std::string unsure_limits_text(const ResultFiles& files);
 // The design whose measurement beside that of the chosen one settles most; nothing where the choice
 // is sure.
 std::optional<std::size_t> design_to_measure(const ResultFiles& files);

@@ -83,14 +83,20 @@ LabJson plan_json(const Lab& lab, const PlanRecord& plan) {
                            {"F_on", e.expected_on},
                            {"outcomes_off", outcomes_json(e.off, choices)},
                            {"outcomes_on", outcomes_json(e.on, choices)}});
-  return {{"date", plan.date},
-          {"for", aim_names()[static_cast<std::size_t>(plan.aim)]},
-          {"seconds", plan.seconds},
-          {"regret_now", json_number(plan.regret_now)},
-          {"regret_after", json_number(plan.regret_after)},
-          {"p_change", json_number(plan.p_change)},
-          {"stop", plan.stop},
-          {"experiments", std::move(experiments)}};
+  return {
+      {"date", plan.date},
+      {"for", aim_names()[static_cast<std::size_t>(plan.aim)]},
+      {"seconds", plan.seconds},
+      {"regret_now", json_number(plan.regret_now)},
+      {"regret_after", json_number(plan.regret_after)},
+      {"p_change", json_number(plan.p_change)},
+      {"stop", plan.stop},
+      {"stop_reason",
+       plan.stop_reason ? LabJson(stop_reason_names()[static_cast<std::size_t>(*plan.stop_reason)])
+                        : LabJson(nullptr)},
+      {"ended", plan.ended ? LabJson(batch_end_names()[static_cast<std::size_t>(*plan.ended)])
+                           : LabJson(nullptr)},
+      {"experiments", std::move(experiments)}};
 }
 
 LabJson decision_record_json(const DecisionRecord& d) {

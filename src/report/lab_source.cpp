@@ -28,7 +28,11 @@ class LabOpener {
   explicit LabOpener(const LabSource& source) : source_(source) {}
 
   LabOpening open() {
-    for (const std::string& path : source_.paths) take(path);
+    // A run first, however they are named: other designs beside it are controls, as it knows
+    // nothing of what they are worth.
+    std::vector<std::string> paths = source_.paths;
+    std::stable_partition(paths.begin(), paths.end(), is_run);
+    for (const std::string& path : paths) take(path);
     if (designs_.empty()) throw InputError("no design to measure");
     set_belief();
     set_conditions();
@@ -49,7 +53,7 @@ class LabOpener {
   void take(const std::string& path) {
     opened_with_.push_back(path);
     const bool folder = fs::is_directory(path);
-    if (folder && fs::is_regular_file(path + "/run.json")) return take_run(path);
+    if (is_run(path)) return take_run(path);
     if (folder && fs::is_regular_file(path + "/manifest.csv"))
       return take_manifest(path + "/manifest.csv");
     if (path.ends_with(".csv")) return take_manifest(path);
@@ -58,29 +62,40 @@ class LabOpener {
                        search::unfinished_hint(Folder(path)));
     if (is_calibration(path)) return take_calibration(path);
     opened_with_.back() =
-        file().designs[add(fs::path(path).stem().string(), read_design(path), true)].name;
+        file().designs[add(fs::path(path).stem().string(), read_design(path), !has_run())].name;
   }
+
+  static bool is_run(const std::string& path) {
+    return fs::is_directory(path) && fs::is_regular_file(path + "/run.json");
+  }
+  bool has_run() const { return out_.opening.worth.has_value(); }
 
   static bool is_calibration(const std::string& path) {
     return load_document(own_or_shipped(path), {}, design_roots()).has("parameters");
   }
 
-  // Under a name that no other has; the index of the design.
-  std::size_t add(std::string name, const Design& design, bool choice) {
-    const auto taken = [&](const std::string& n) {
-      return std::any_of(file().designs.begin(), file().designs.end(),
-                         [&](const DesignEntry& d) { return d.name == n; });
+  // Under a name whose file no other has; the index of the design.
+  std::size_t add(const std::string& plain, const Design& design, bool choice) {
+    const auto file_of = [](std::string name) {
+      std::replace(name.begin(), name.end(), '/', '_');
+      return "designs/" + name + ".toml";
     };
-    const std::string plain = name;
+    const auto taken = [&](const std::string& name) {
+      return std::any_of(file().designs.begin(), file().designs.end(),
+                         [&](const DesignEntry& d) { return d.file == file_of(name); });
+    };
+    std::string name = plain;
     for (int k = 2; taken(name); ++k) name = fmt::format("{}-{}", plain, k);
-    std::string stem = name;
-    std::replace(stem.begin(), stem.end(), '/', '_');
-    file().designs.push_back({name, "designs/" + stem + ".toml", choice});
+    file().designs.push_back({name, file_of(name), choice});
     designs_.push_back(design);
     return designs_.size() - 1;
   }
 
   void take_run(const std::string& path) {
+    if (has_run())
+      throw InputError(path +
+                       ": a second run: what designs of one are worth is not known beside "
+                       "those of another; open a lab for each");
     const Folder folder(path);
     nlohmann::ordered_json run;
     try {
@@ -101,8 +116,8 @@ class LabOpener {
                          "/run.json: without what its designs are worth at each member; "
                          "`papilla optimize` with the same study adds it, nothing is "
                          "evaluated again");
-      add(name, read_design(folder.file(name + "/design.toml")), true);
-      worth.designs.push_back(name);
+      const std::size_t index = add(name, read_design(folder.file(name + "/design.toml")), true);
+      worth.designs.push_back(file().designs[index].name);
       std::vector<double>& row = worth.worth.emplace_back();
       for (const auto& x : design.at("worth_at_members"))
         row.push_back(x.is_null() ? std::nan("") : x.get<double>());
@@ -149,25 +164,27 @@ class LabOpener {
     for (std::size_t i = 0; i < designs_.size(); ++i) {
       if (designs_[i].texture == design.texture && designs_[i].surface == design.surface) return i;
     }
-    // Beside a run the wafer's other fields are controls.
-    return add(fs::path(name).stem().string(), design, !out_.opening.worth.has_value());
+    return add(fs::path(name).stem().string(), design, !has_run());
   }
 
   void take_calibration(const std::string& path) {
     const Calibration c = read_calibration(path, m3_claim_ids());
     std::vector<std::string> files;
     CandidateConditions& at = file().conditions;
-    const auto once = [](std::vector<double>& values, double v) {
+    const auto once = [](auto& values, const auto& v) {
       if (std::find(values.begin(), values.end(), v) == values.end()) values.push_back(v);
     };
     for (const FrictionDatum& d : c.data) {
+      Design design = read_design(d.design);
+      const FingerState state = d.state.value_or(design.finger.state);
       once(at.load, d.load);
       once(at.humidity, d.relative_humidity);
       once(at.voltage, d.amplitude);
+      once(at.states, finger_state_names()[static_cast<std::size_t>(state)]);
       if (std::find(files.begin(), files.end(), d.design) != files.end()) continue;
       files.push_back(d.design);
-      Design design = read_design(d.design);
       design.finger = c.finger;
+      design.finger.state = state;
       add(fs::path(d.design).stem().string(), design, false);
     }
     if (files.empty())
@@ -235,23 +252,33 @@ class LabOpener {
     given(source_.humidity, "%", "--humidity", at.humidity);
     given(source_.voltage, "V", "--voltage", at.voltage);
     given(source_.frequency, "Hz", "--frequency", at.frequency);
-    at.states =
-        source_.states.empty()
-            ? std::vector{finger_state_names()[static_cast<std::size_t>(first.finger.state)]}
-            : split(source_.states, ',');
+    if (at.states.empty())
+      at.states = {finger_state_names()[static_cast<std::size_t>(first.finger.state)]};
+    if (!source_.states.empty()) at.states = split(source_.states, ',');
     if (!file().fields.empty())
       note(fmt::format("{} of the wafer can be measured", counted(file().fields.size(), "field")));
   }
 
+  void tell_controls() {
+    std::vector<std::string> controls;
+    for (const DesignEntry& d : file().designs) {
+      if (!d.choice) controls.push_back(d.name);
+    }
+    if (!controls.empty())
+      note("measured, not chosen, as the run does not say what they are worth: " +
+           join_names(controls));
+  }
+
   void set_worth() {
+    if (has_run()) tell_controls();
     if (!source_.worth.empty()) {
-      if (out_.opening.worth)
+      if (has_run())
         throw InputError("--worth: the run decides by its own rule, " + out_.opening.worth->name);
       parse_own_metric(source_.worth);
       file().worth = source_.worth;
       return;
     }
-    if (out_.opening.worth || calibrated_ || designs_.size() < 2) return;
+    if (has_run() || calibrated_ || designs_.size() < 2) return;
     const bool driven = std::all_of(designs_.begin(), designs_.end(),
                                     [](const Design& d) { return d.drive.driven(); });
     if (driven) file().worth = "worst(modulation)";

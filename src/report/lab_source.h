@@ -12,7 +12,7 @@ namespace papilla::report {
 
 struct LabSource {
   // A folder that `papilla optimize` wrote, a manifest.csv or its folder, design files, a
-  // calibration; a run and a manifest together.
+  // calibration. Beside a run all others are measured, and its own designs alone are chosen among.
   std::vector<std::string> paths;
   std::string belief;  // a file; "": that of the designs' finger, or of the calibration
   std::string worth;   // a metric; "": that of the run, else worst(modulation) of driven designs

@@ -167,15 +167,28 @@ std::string plan_table(const Lab& lab, const PlanRecord& plan) {
 
 std::string stop_text(const Standing& s, const PlanRecord& plan) {
   if (plan.aim != Aim::Decision) return {};
-  if (plan.stop)
+  if (plan.stop_reason == StopReason::Regret)
     return fmt::format(
-        "\nStop: {} more change no decision. What is still expected to be lost, {}, "
-        "is below what was said to be worth it (stop in lab.toml).\n",
-        counted(static_cast<long long>(plan.experiments.size()), "experiment"),
+        "\nStop: what is still expected to be lost, {}, is below what was said to be worth it "
+        "(stop in lab.toml).\n",
+        regret_text(s, plan.regret_now));
+  if (plan.stop_reason == StopReason::NoChange)
+    return fmt::format(
+        "\nStop: more experiments change no decision. Of what is still expected to be lost, {}, "
+        "they save less than was said to be worth it (stop in lab.toml).\n",
         regret_text(s, plan.regret_now));
   return "\nStop when the expected regret is below `stop` of lab.toml: `papilla tell` says it "
          "after "
          "every table.\n";
+}
+
+// Why a plan is empty.
+std::string empty_text(const PlanRecord& plan) {
+  if (plan.ended != BatchEnd::Time) return "Nothing that can be measured tells anything.\n";
+  return fmt::format(
+      "Nothing fits into the time that was given: the shortest experiment that tells anything "
+      "takes {}.\n",
+      hours(plan.shortest));
 }
 
 std::string decision_line(const DecisionRecord& d) {
@@ -227,7 +240,7 @@ std::string lab_plan_reason(Lab& lab, const PlanRecord& plan) {
 std::string lab_plan_text(Lab& lab, const PlanRecord& plan) {
   const Standing& s = lab.standing();
   std::string out = "# What to measure next\n\n" + lab_standing_text(lab) + "\n";
-  if (plan.experiments.empty()) return out + "Nothing that can be measured tells anything.\n";
+  if (plan.experiments.empty()) return out + empty_text(plan) + stop_text(s, plan);
   out += plan_table(lab, plan) + "\n" + lab_plan_reason(lab, plan) +
          fmt::format(" It takes {}.\n", hours(plan.seconds));
   if (plan.aim == Aim::Decision) out += outcomes_text(lab, plan);
@@ -310,6 +323,24 @@ double frequency_of(const Lab& lab, const Experiment& e) {
   return lab.designs()[e.design].design.drive.frequency;
 }
 
+// The last touch of an experiment that was planned or told before this plan.
+int last_touch_before(const Lab& lab, const PlannedExperiment& planned) {
+  int last = 0;
+  for (const JournalEntry& e : lab.entries()) {
+    if (e.plan) {
+      for (const PlannedExperiment& p : e.plan->experiments) {
+        if (p.id == planned.id) return last;
+        if (p.experiment == planned.experiment) last += p.repeats;
+      }
+    }
+    if (!e.tell) continue;
+    for (const FrictionReading& r : e.tell->readings) {
+      if (r.experiment == planned.experiment) last = std::max(last, r.repeat);
+    }
+  }
+  return last;
+}
+
 }  // namespace
 
 std::string lab_plan_csv(const Lab& lab, const PlanRecord& plan) {
@@ -318,10 +349,11 @@ std::string lab_plan_csv(const Lab& lab, const PlanRecord& plan) {
       "day,F_off_N,F_off_sd_N,F_on_N,F_on_sd_N\n";
   for (const PlannedExperiment& e : plan.experiments) {
     const Conditions& at = e.experiment.at;
+    const int before = last_touch_before(lab, e);
     for (int k = 1; k <= e.repeats; ++k)
       out += fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{},,,,,,\n", e.id,
-                         csv_cell(e.field), csv_cell(lab.designs()[e.experiment.design].name), k,
-                         at.load, 100 * at.relative_humidity, at.voltage,
+                         csv_cell(e.field), csv_cell(lab.designs()[e.experiment.design].name),
+                         before + k, at.load, 100 * at.relative_humidity, at.voltage,
                          at.driven() ? frequency_of(lab, e.experiment) : 0,
                          finger_state_names()[static_cast<std::size_t>(at.state)]);
   }

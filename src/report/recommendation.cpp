@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "design/families.h"
 #include "metrics/shown.h"
+#include "report/decision.h"
 #include "report/grounds.h"
 #include "report/limits.h"
 #include "report/run_numbers.h"
@@ -321,7 +322,7 @@ std::string recommendation(const ResultFiles& f) {
           "Whether a texture is worth building is not known: the surface without it {}. What "
           "follows is of {}, the best of the front.{}",
           without_number(f.result.flat_unanswered), design_name(best_of(f).folder),
-          unstable_recommended(f));
+          unsure_limits_text(f) + unstable_recommended(f));
     case Advice::LeaveFlat:
       return leave_flat(f);
     case Advice::Finish:
@@ -329,8 +330,8 @@ std::string recommendation(const ResultFiles& f) {
     case Advice::Texture:
       break;
   }
-  return worth_building(f) + unfelt_skin_text(f) + yield_sentence(f) + rounding_text(f) +
-         unstable_recommended(f);
+  return worth_building(f) + unfelt_skin_text(f) + unsure_limits_text(f) + yield_sentence(f) +
+         rounding_text(f) + unstable_recommended(f);
 }
 
 }  // namespace papilla::report

@@ -52,7 +52,7 @@ const char* about(const std::string& section) {
   if (section == "drive") return "The electrical drive; without an amplitude nothing is driven.";
   if (section == "model") {
     return "Model options. The default of each is what the finger was fitted with "
-           "(`finger.calibrated_for`).";
+           "(`finger.calibrated_for`); shown are those of `designs/fingers/reference.toml`.";
   }
   if (section == "accuracy") return "Speed against error.";
   if (section == "metrics") {
@@ -288,7 +288,7 @@ std::vector<Part> parts_of(const std::string& section) {
   if (section == "counterface") return {{"", field_rows(Counterface{}, section)}};
   if (section == "environment") return {{"", field_rows(Environment{}, section)}};
   if (section == "drive") return {{"", field_rows(Drive{}, section)}};
-  if (section == "model") return {{"", field_rows(ModelOptions{}, section)}};
+  if (section == "model") return {{"", field_rows(Finger{}.calibrated_for, section)}};
   if (section == "accuracy") return {{"", field_rows(AccuracySettings{}, section)}};
   if (section == "persson") return {{"", field_rows(MeanFieldCase{}, "")}};
   if (section == "circuit") return {{"", field_rows(DriveCase{}, "")}};

@@ -39,7 +39,7 @@ struct MeasuredTable {
 // Columns by name and unit in any order; further ones are told and not read. Throws InputError with
 // every mistake and its line: a unit that is none, a column that nearly has a known name, a number
 // that is none or lies outside of what a finger does, a friction beyond ten times the load, F_on
-// below F_off on average, a line that is cut off.
+// below F_off on average by more than touches scatter, a line that is cut off.
 MeasuredTable read_measured_table(std::string_view text, const std::string& file);
 
 }  // namespace papilla::scene

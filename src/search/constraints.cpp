@@ -47,7 +47,7 @@ double most_beyond(const std::vector<double>& geometry, const Judged& judged,
 }
 
 LimitedNumbers numbers_of(const Score& score) {
-  return {score.oxide_margin, score.look, score.limited, {}};
+  return {score.oxide_margin, score.looks, score.limited, {}};
 }
 
 // When the value of a limit is known.
@@ -135,18 +135,24 @@ std::optional<double> StudyConstraints::value_with(const Constraint& limit,
   struct Of {
     const StudyGoals& goals;
     const LimitedNumbers& numbers;
+    bool at_least;
 
     std::optional<double> operator()(const ShapeLimit&) const { return std::nullopt; }
     std::optional<double> operator()(const FilmLimit&) const { return numbers.oxide_margin; }
     std::optional<double> operator()(const LookLimit& l) const {
-      return numbers.look ? std::optional((*numbers.look).*l.number) : std::nullopt;
+      std::optional<double> out;
+      for (const Look& look : numbers.looks) {
+        const double value = look.*l.number;
+        if (!out || (at_least ? value < *out : value > *out)) out = value;
+      }
+      return out;
     }
     std::optional<double> operator()(const MetricLimit& l) const {
       return numbers.limited.at(goals.place_of(l));
     }
     std::optional<double> operator()(const YieldLimit&) const { return std::nullopt; }
   };
-  return std::visit(Of{goals_, numbers}, limit.on);
+  return std::visit(Of{goals_, numbers, limit.at_least}, limit.on);
 }
 
 double StudyConstraints::value(const Constraint& limit, const Design& design,

@@ -34,8 +34,11 @@ struct Decision {
   std::optional<HalvesReversal> parameter;     // of the finger
 
   bool made() const { return absent.empty() && !designs.empty(); }
-  // The best keeps every limit as surely as the study wants it.
-  bool sure(double p_limits) const { return designs[best].p_limits >= p_limits - 1e-9; }
+  // Whether a design keeps every limit as surely as the study wants it; whether the best does.
+  bool keeps_limits(std::size_t design, double p_limits) const {
+    return designs[design].p_limits >= p_limits - 1e-9;
+  }
+  bool sure(double p_limits) const { return keeps_limits(best, p_limits); }
 };
 
 // What a confirmed design has at the members of belief, and what the skins leave open of it: its

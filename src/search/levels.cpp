@@ -1,10 +1,12 @@
 #include "search/levels.h"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <filesystem>
 
+#include "design/design.h"
 #include "estimate/belief.h"
 #include "forward/plan.h"
 #include "forward/price.h"
@@ -92,7 +94,7 @@ Fidelity narrow_fidelity(const StudyProblem& problem) {
 // The finger population shares the samples of the level, those of the 3-D field too: the mean over
 // fingers is as sure as one finger at that level.
 Fidelity confirm_fidelity(const Study& study, std::size_t tasks) {
-  Fidelity f = fidelity_level(study.design.accuracy.level_name());
+  Fidelity f = fidelity_of(study.design);
   f.seed = static_cast<std::uint64_t>(study.search.seed);
   f.first_skin = kFreshSkins;
   f.skins = std::max(10, f.skins / static_cast<int>(tasks));
@@ -178,7 +180,7 @@ Fidelity steps_fidelity(const StudyProblem& problem, Fidelity confirmed) {
   const int wanted = problem.belief() ? std::max(kLeastMemberSkins, kMembersSkins / tasks)
                                       : std::max(2, kStepSkins / tasks);
   confirmed.skins = std::min(confirmed.skins, wanted);
-  confirmed.grid = kStepGrid;
+  confirmed.grid = std::min(kStepGrid, confirmed.grid);
   return confirmed;
 }
 
@@ -216,6 +218,11 @@ double over_price(Stage stage) {
       break;
   }
   return 1;
+}
+
+int processors_for(const Study& study) {
+  const int processors = omp_get_num_procs();
+  return study.search.jobs > 0 ? std::min(study.search.jobs, processors) : processors;
 }
 
 double search_pace(const Study& study) {

@@ -39,6 +39,8 @@ double over_price(Stage stage);
 inline constexpr double kLeastOfPrice = 0.9, kMostOfPrice = 1.9;
 // `machine_pace` at the search's level, of the study's own design under each of its tasks.
 double search_pace(const Study& study);
+// How many processors of this machine a search keeps busy.
+int processors_for(const Study& study);
 
 // What a search takes, as plans price it.
 struct StudyCost {

@@ -143,7 +143,8 @@ void add_objectives(Score& score, const Scoring& s, const std::vector<TaskAnswer
 }
 
 LimitedNumbers limited_numbers(const TaskAnswer& a) {
-  return {a.oxide_margin, a.look, a.limited, a.limited_errors};
+  return {a.oxide_margin, a.look ? std::vector{*a.look} : std::vector<Look>{}, a.limited,
+          a.limited_errors};
 }
 
 // What constraints are about: the bad side over tasks. With a limit on the yield the ends of the
@@ -159,7 +160,7 @@ void add_extremes(Score& score, const Scoring& s, const std::vector<TaskAnswer>&
   if (s.goals.yield) all.resize(s.nominal);
   LimitedNumbers bad = bad_side(s, all);
   score.oxide_margin = bad.oxide_margin;
-  score.look = bad.look;
+  score.looks = std::move(bad.looks);
   score.limited = std::move(bad.limited);
 }
 
@@ -182,8 +183,11 @@ LimitedNumbers bad_side(const Scoring& s, const std::vector<LimitedNumbers>& of_
       out.limited[j] = a.limited[j];
       out.limited_errors[j] = j < a.limited_errors.size() ? a.limited_errors[j] : 0;
     }
-    // The same for every finger; a scenario may look otherwise: the worst.
-    if (a.look && (!out.look || a.look->haze > out.look->haze)) out.look = a.look;
+    // Which is the worst depends on the limit: gloss falls as haze rises.
+    for (const Look& look : a.looks) {
+      if (std::find(out.looks.begin(), out.looks.end(), look) == out.looks.end())
+        out.looks.push_back(look);
+    }
   }
   return out;
 }

@@ -14,7 +14,7 @@ namespace papilla::search {
 // What limits are about, of one task or the bad side of several.
 struct LimitedNumbers {
   double oxide_margin = 0;             // infinite without a field
-  std::optional<Look> look;            // that of the highest haze, where the study asks for it
+  std::vector<Look> looks;             // where the study asks for them: the worst counts
   std::vector<double> limited;         // of each constraint on a metric
   std::vector<double> limited_errors;  // one standard error of each
 };
@@ -44,7 +44,7 @@ struct Score {
   // Over tasks of some weight:
   double worst = 0;                     // the lowest modulation; 0: undriven
   double oxide_margin = 0;              // the smallest; infinite without a field
-  std::optional<Look> look;             // that of the highest haze, where the study asks for it
+  std::vector<Look> looks;              // where the study asks for them: the worst counts
   std::vector<double> limited;          // the bad side of each constraint on a metric
   std::vector<LimitedNumbers> by_task;  // of every task, where numbers scatter
   std::optional<YieldShare> yield;      // where a limit is on it

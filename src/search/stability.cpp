@@ -79,7 +79,7 @@ Score score_of_limits(const TaskAnswer& answer) {
   Score out;
   out.ok = true;
   out.oxide_margin = answer.oxide_margin;
-  out.look = answer.look;
+  if (answer.look) out.looks = {*answer.look};
   out.limited = answer.limited;
   return out;
 }

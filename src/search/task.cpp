@@ -81,6 +81,7 @@ Response respond(const Scene& scene, const Design& d, const TaskWork& work) {
                             {.target = d.accuracy.target,
                              .first_skin = work.fidelity.first_skin,
                              .seed = work.fidelity.seed,
+                             .droplet_seeds = work.fidelity.droplet_seeds,
                              .threads = work.fidelity.threads,
                              .most_seconds = work.most_seconds});
 }
@@ -126,7 +127,7 @@ double oxide_margin(const StudyGoals& goals, const Design& d, const Response& re
       out = std::min(
           {out, p.oxide_margin, bridged_margin(d.surface, d.texture, d.drive, p.source_voltage)});
     for (const VoltageAnswer& v : p.voltages)
-      out = std::min(out, breakdown_voltage(d.surface, d.texture) / v.amplitude.value);
+      out = std::min(out, breakdown_voltage(d.surface, d.texture, d.drive) / v.amplitude.value);
   }
   return out;
 }

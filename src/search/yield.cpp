@@ -41,9 +41,9 @@ class LimitedOverScatter {
         task.limited.push_back(quadratic([j](const LimitedNumbers& n) { return n.limited[j]; }));
       task.errors = drawn.limited_errors;
       for (double Look::*number : kLookNumbers) {
-        if (looks && drawn.look)
+        if (looks && !drawn.looks.empty())
           task.look.push_back(
-              quadratic([number](const LimitedNumbers& n) { return (*n.look).*number; }));
+              quadratic([number](const LimitedNumbers& n) { return n.looks.front().*number; }));
       }
       tasks_.push_back(std::move(task));
     }
@@ -59,9 +59,9 @@ class LimitedOverScatter {
       for (const ScatterQuadratic& q : task.limited) n.limited.push_back(q.at(deviation));
       n.limited_errors = task.errors;
       if (task.look.empty()) continue;
-      n.look.emplace();
+      Look& look = n.looks.emplace_back();
       for (std::size_t i = 0; i < kLookNumbers.size(); ++i)
-        (*n.look).*kLookNumbers[i] = task.look[i].at(deviation);
+        look.*kLookNumbers[i] = task.look[i].at(deviation);
     }
     return bad_side(scoring_, all);
   }
@@ -116,7 +116,7 @@ class PlateJudge {
  private:
   void add(const Design& plate, LimitedNumbers numbers, Verdicts& out) const {
     bool kept = true, better = true, worse = true;
-    if (quick_looks_) numbers.look = appearance_of(plate);
+    if (quick_looks_) numbers.looks = {appearance_of(plate)};
     for (std::size_t i = 0; i < study_.constraints.size(); ++i) {
       const Constraint& limit = study_.constraints[i];
       if (std::holds_alternative<YieldLimit>(limit.on)) continue;

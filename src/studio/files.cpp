@@ -55,6 +55,15 @@ std::optional<double> limit_of(const Study& study, ShapeMargin margin) {
   return std::nullopt;
 }
 
+// The name in a folder that these bytes are kept under: that of a file with the same, else one that
+// nothing has.
+std::string kept_name(const Folder& folder, const fs::path& wanted, const std::string& bytes) {
+  std::string name = wanted.string();
+  for (int copy = 2; folder.has(name) && folder.read(name) != bytes; ++copy)
+    name = fmt::format("{}-{}{}", wanted.stem().string(), copy, wanted.extension().string());
+  return name;
+}
+
 // A text without every place of a part.
 std::string without(std::string text, const std::string& part) {
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at))
@@ -184,9 +193,11 @@ Json Files::keep_scan(const std::string& name, const std::string& bytes) const {
                               fmt::format("expected a map of heights: {}; others can be read by "
                                           "`papilla surface FILE --out MAP.gsf`",
                                           fmt::join(kMapEndings, " "))}});
-  handle_.made_below(file.parent_path().lexically_relative(folder_).string())
-      .write(file.filename().string(), bytes);
-  return {{"name", file.lexically_relative(folder_).generic_string()}, {"bytes", bytes.size()}};
+  const fs::path below = file.parent_path().lexically_relative(folder_);
+  const Folder folder = handle_.made_below(below.string());
+  const std::string kept = kept_name(folder, file.filename(), bytes);
+  if (!folder.has(kept)) folder.write(kept, bytes);
+  return {{"name", (below / kept).generic_string()}, {"bytes", bytes.size()}};
 }
 
 Json Files::scan_view(const std::string& name, const std::string& size, bool fill,

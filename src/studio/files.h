@@ -41,7 +41,8 @@ class Files {
   nlohmann::ordered_json export_files(const Study& study, const std::string& name) const;
   // What an export would be: margins against the constraints, formats. At once.
   nlohmann::ordered_json export_preview(const Study& study) const;
-  // A dropped map of heights, kept under scans/; its import view.
+  // A dropped map of heights, kept under scans/. What is kept there stays: another map of the same
+  // name is kept beside it, scan-2.gsf. {"name", "bytes"}
   nlohmann::ordered_json keep_scan(const std::string& name, const std::string& bytes) const;
   // size: "12 um" where the file does not say; fill, as_is: as `papilla surface`.
   nlohmann::ordered_json scan_view(const std::string& name, const std::string& size, bool fill,

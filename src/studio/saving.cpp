@@ -72,7 +72,7 @@ std::size_t offset_of(const std::string& text, const Place& place) {
   return at;
 }
 
-// The end of the value that begins at `at`: a text, a list, or a word.
+// The end of the value that begins at `at`: a text, a list, a table within a line, or a word.
 std::size_t end_of_value(const std::string& text, std::size_t at) {
   const auto end_of_text = [&](std::size_t from) {
     const char quote = text[from];
@@ -81,7 +81,7 @@ std::size_t end_of_value(const std::string& text, std::size_t at) {
     return std::min(i + 1, text.size());
   };
   if (text[at] == '"' || text[at] == '\'') return end_of_text(at);
-  if (text[at] != '[') {
+  if (text[at] != '[' && text[at] != '{') {
     const std::size_t end = std::min(text.find_first_of(",]}#\n", at), text.size());
     return text.find_last_not_of(" \t\r", end - 1) + 1;
   }
@@ -89,9 +89,9 @@ std::size_t end_of_value(const std::string& text, std::size_t at) {
   for (std::size_t i = at; i < text.size(); ++i) {
     if (text[i] == '"' || text[i] == '\'')
       i = end_of_text(i) - 1;
-    else if (text[i] == '[')
+    else if (text[i] == '[' || text[i] == '{')
       ++depth;
-    else if (text[i] == ']' && --depth == 0)
+    else if ((text[i] == ']' || text[i] == '}') && --depth == 0)
       return i + 1;
   }
   return text.size();
@@ -102,48 +102,114 @@ bool is_header(const std::string& line) {
   return first != std::string::npos && line[first] == '[';
 }
 
-std::optional<std::size_t> header_of(const std::vector<std::string>& lines,
-                                     const std::string& section) {
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    std::string line = lines[i].substr(0, lines[i].find('#'));
-    line.erase(
-        std::remove_if(line.begin(), line.end(), [](char c) { return c == ' ' || c == '\r'; }),
-        line.end());
-    if (line == "[" + section + "]") return i;
+// surface.dielectric.0.thickness -> surface.dielectric; empty: no item of a list.
+std::string list_of(const std::string& path) {
+  std::string out;
+  for (const std::string& part : split(path, '.')) {
+    if (is_number(part)) return out;
+    out += (out.empty() ? "" : ".") + part;
+  }
+  return "";
+}
+
+// Without comment and spaces.
+std::string bare(const std::string& line) {
+  std::string out = line.substr(0, line.find('#'));
+  std::erase_if(out, [](char c) { return c == ' ' || c == '\t' || c == '\r'; });
+  return out;
+}
+
+// The line of a header, from `from` on and before `to`.
+std::optional<std::size_t> line_of(const std::vector<std::string>& lines, const std::string& header,
+                                   std::size_t from, std::size_t to) {
+  for (std::size_t i = from; i < std::min(to, lines.size()); ++i) {
+    if (bare(lines[i]) == header) return i;
   }
   return std::nullopt;
 }
 
-// One past the last line of a section that says something.
-std::size_t end_of_section(const std::vector<std::string>& lines, std::size_t header) {
-  std::size_t end = header + 1, last = header;
-  for (; end < lines.size() && !is_header(lines[end]); ++end) {
-    const std::size_t first = lines[end].find_first_not_of(" \t\r");
-    if (first != std::string::npos && lines[end][first] != '#') last = end;
+// Of an item of a list, surface.dielectric.1, the line of its own [[surface.dielectric]]; of a
+// section of it the line below that.
+std::optional<std::size_t> header_of(const std::vector<std::string>& lines,
+                                     const std::string& section) {
+  const std::string list = list_of(section);
+  if (!list.empty()) {
+    const std::string item = section.substr(list.size() + 1), header = "[[" + list + "]]";
+    std::optional<std::size_t> own = line_of(lines, header, 0, lines.size());
+    for (std::size_t i = std::stoul(item); own && i > 0; --i)
+      own = line_of(lines, header, *own + 1, lines.size());
+    const std::size_t dot = item.find('.');
+    if (own && dot == std::string::npos) return own;
+    if (own) {
+      const auto next = line_of(lines, header, *own + 1, lines.size());
+      return line_of(lines, "[" + list + item.substr(dot) + "]", *own, next.value_or(lines.size()));
+    }
   }
-  return last + 1;
+  return line_of(lines, "[" + section + "]", 0, lines.size());
 }
 
+// One past the last line of a section that says something; begin: the first below its header.
+std::size_t end_of_section(const std::vector<std::string>& lines, std::size_t begin) {
+  std::size_t out = begin;
+  for (std::size_t i = begin; i < lines.size() && !is_header(lines[i]); ++i) {
+    const std::size_t first = lines[i].find_first_not_of(" \t\r");
+    if (first != std::string::npos && lines[i][first] != '#') out = i + 1;
+  }
+  return out;
+}
+
+// With one more member at the end of the table within a line that begins at `at`.
+std::string with_member(std::string text, std::size_t at, const std::string& member) {
+  const std::size_t close = end_of_value(text, at) - 1;
+  const std::size_t last = text.find_last_not_of(" \t", close - 1);
+  if (last != at) return text.insert(last + 1, ", " + member);
+  return text.replace(at + 1, close - at - 1, " " + member + " ");
+}
+
+// finger.water.load -> finger.water; empty: none.
+std::string section_of(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string::npos ? "" : path.substr(0, dot);
+}
+
+// Whether a section that has no header can get none: it is an item of a list, or there by dotted
+// keys of a table around it, not by the header of a section below it.
+bool takes_dotted_keys(const std::vector<std::string>& lines, const Node& root,
+                       const std::string& section) {
+  const Node* list = node_at(root, list_of(section));
+  if (list && list->is_array()) return true;
+  return node_at(root, section) &&
+         std::none_of(lines.begin(), lines.end(), [&](const std::string& line) {
+           const std::string header = bare(line);
+           return header.starts_with("[" + section + ".") ||
+                  header.starts_with("[[" + section + ".");
+         });
+}
+
+// At the end of its section: below its header, in its line, or in the table around it that it is
+// part of; a section that is not there comes last.
 std::string with_new_key(const std::string& text, const Node& root, const Change& change) {
-  const std::size_t dot = change.path.rfind('.');
-  const std::string section = dot == std::string::npos ? "" : change.path.substr(0, dot);
-  const std::string line =
-      change.path.substr(dot == std::string::npos ? 0 : dot + 1) + " = " + literal(change.text);
   std::vector<std::string> lines = lines_of(text);
-  if (const auto header = header_of(lines, section)) {
-    lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(end_of_section(lines, *header)), line);
+  const auto with_line = [&](std::size_t begin, const std::string& line) {
+    lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(end_of_section(lines, begin)), line);
     return text_of(lines);
+  };
+  const std::string value = " = " + literal(change.text), section = section_of(change.path);
+  const bool dotted = section.empty() || takes_dotted_keys(lines, root, section);
+  for (std::string around = section; !around.empty(); around = section_of(around)) {
+    const std::string member = change.path.substr(around.size() + 1) + value;
+    if (const Node* node = node_at(root, around); node && node->is_table()) {
+      const std::size_t at = offset_of(text, node->place);
+      if (text[at] == '{') return with_member(text, at, member);
+    }
+    const auto header = header_of(lines, around);
+    if (header && (around == section || dotted)) return with_line(*header + 1, member);
   }
-  if (node_at(root, section)) {
-    throw InputError({Problem{"", 0, 0, change.path,
-                              "the file has this section within one line: save under another name, "
-                              "or write it as [" +
-                                  section + "]"}});
-  }
+  if (dotted) return with_line(0, change.path + value);
   const std::string gap = text.empty() || text.ends_with("\n\n") ? ""
                           : text.ends_with('\n')                 ? "\n"
                                                                  : "\n\n";
-  return text + gap + "[" + section + "]\n" + line + "\n";
+  return text + gap + "[" + section + "]\n" + change.path.substr(section.size() + 1) + value + "\n";
 }
 
 // A new kind of texture: what the section said of the old one goes.
@@ -152,7 +218,8 @@ std::string without_members(const std::string& text, const std::string& section)
   const auto header = header_of(lines, section);
   if (!header) return text;
   const auto first = lines.begin() + static_cast<std::ptrdiff_t>(*header + 1);
-  lines.erase(first, lines.begin() + static_cast<std::ptrdiff_t>(end_of_section(lines, *header)));
+  lines.erase(first,
+              lines.begin() + static_cast<std::ptrdiff_t>(end_of_section(lines, *header + 1)));
   return text_of(lines);
 }
 
@@ -182,16 +249,6 @@ Change whole_list(const Design& design, const std::string& list) {
   }
   for (std::string& item : items) item = "{ " + item + " }";
   return {list, "[" + join_names(items, ", ") + "]"};
-}
-
-// surface.dielectric.0.thickness -> surface.dielectric; empty: no item of a list.
-std::string list_of(const std::string& path) {
-  std::string out;
-  for (const std::string& part : split(path, '.')) {
-    if (is_number(part)) return out;
-    out += (out.empty() ? "" : ".") + part;
-  }
-  return "";
 }
 
 // The path of a base as a file in this folder names it.

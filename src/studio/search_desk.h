@@ -26,7 +26,7 @@ namespace papilla::studio {
 
 // What a person wants of a search: set on the page, and steered while it runs.
 struct VariableWish {
-  std::string path, low, high;  // texts with units: "100 nm"; low == high: pinned
+  std::string path, low, high;  // texts with units: "100 nm"; the same value twice: pinned there
   std::string excluding{};      // of them: "300 to 400 nm, 600 to 650 nm"
 };
 struct LimitWish {

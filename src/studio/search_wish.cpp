@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -61,6 +62,21 @@ Node range_node(const VariableWish& v) {
   return out;
 }
 
+Node choice_node(Node list) {
+  Node out = table_node();
+  out.set("choice", std::move(list));
+  return out;
+}
+
+// "200 nm" and "0.2 um" are one value.
+bool same_value(const std::string& a, const std::string& b) {
+  constexpr double kSame = 1e-12;  // relative: digits of their units' factors
+  if (a == b) return true;
+  const auto x = parse_quantity(a), y = parse_quantity(b);
+  return x && y && find_unit(x->unit)->same_dimension(*find_unit(y->unit)) &&
+         std::abs(x->si - y->si) <= kSame * std::abs(x->si);
+}
+
 bool has_number(const Study& study, const std::string& path) {
   Design design = study.design;
   const std::vector<NumberField> known = number_fields(design);
@@ -103,15 +119,13 @@ Node kept_targets(const Study& study, const SearchWish& wish) {
 
 Node space_node(const Study& study, const SearchWish& wish) {
   Node space = table_node();
-  if (wish.kinds.size() > 1) {
-    Node choice = table_node();
-    choice.set("choice", texts_node(wish.kinds));
-    space.set("texture.type", std::move(choice));
-  }
+  bool varies = wish.kinds.size() > 1;
+  if (varies) space.set("texture.type", choice_node(texts_node(wish.kinds)));
   for (const VariableWish& v : wish.variables) {
-    if (v.low != v.high) space.set(v.path, range_node(v));
+    const bool pinned = same_value(v.low, v.high);
+    space.set(v.path, pinned ? choice_node(array_node({value_node(v.low)})) : range_node(v));
+    varies = varies || !pinned;
   }
-  bool varies = !space.children.empty();
   const Node* own = study.study_sections.find("design_space");
   const PathMembers members = own ? members_by_path(*own, {"choice", "range"}) : PathMembers{};
   for (const Variable& v : kept_variables(study, wish)) {
@@ -279,6 +293,29 @@ std::vector<std::string> metric_texts(const std::vector<MetricExpression>& expre
 
 namespace {
 
+Json limit_json(const ConstraintKind& kind) {
+  const auto* metric = std::get_if<MetricLimit>(&kind.on);
+  return {{"name", kind.name},
+          {"unit", kind.unit},
+          {"doc", metric ? info_of(metric->expression.metric).doc : kind.doc},
+          {"at_least", kind.at_least}};
+}
+
+// Limits that are set on a metric are none of the list: the page is told what each is, too.
+void know_set_limits(Json& wish) {
+  Json& known = wish["known_limits"];
+  for (const Json& limit : wish["limits"]) {
+    const Json name = limit.is_object() ? limit.value("name", Json()) : Json();
+    const bool listed =
+        std::any_of(known.begin(), known.end(), [&](const Json& k) { return k["name"] == name; });
+    if (listed || !name.is_string()) continue;
+    try {
+      known.push_back(limit_json(read_constraint_kind(name.get<std::string>())));
+    } catch (const InputError&) {  // of a page: the search will refuse it
+    }
+  }
+}
+
 // The page's own words over what is proposed; of variables that both know.
 void write_over(Json& proposed, const Json& kept) {
   for (const char* key : {"kinds", "fingers", "maximise", "minimise", "limits", "evaluations"}) {
@@ -304,9 +341,7 @@ Json proposed_wish(const Study& study, const std::string& kept) {
     limits.push_back(
         {{"name", name}, {"limit", quantity(c.limit, read_constraint_kind(name).unit)}});
   }
-  for (const ConstraintKind& kind : constraint_kinds())
-    known.push_back(
-        {{"name", kind.name}, {"unit", kind.unit}, {"doc", kind.doc}, {"at_least", kind.at_least}});
+  for (const ConstraintKind& kind : constraint_kinds()) known.push_back(limit_json(kind));
   for (const MetricInfo& metric : metric_list()) {
     if (!metric.appearance)
       metrics.push_back(
@@ -342,6 +377,7 @@ Json proposed_wish(const Study& study, const std::string& kept) {
            {"evaluations", study.search.evaluations}};
   const Json page = Json::parse(kept, nullptr, false);
   if (page.is_object()) write_over(out, page);
+  know_set_limits(out);
   return out;
 }
 

@@ -94,11 +94,10 @@ void Session::restore(const std::string& file) {
     constexpr std::size_t kMost = std::size_t{1} << 24;
     const Json kept = Json::parse(kept_.read(kSessionFile, kMost));
     for (const Json& p : kept.at("pins")) {
-      PinnedDesign pin{p.at("number").get<int>(), p.at("name").get<std::string>(),
-                       draft_from(p.at("draft"))};
-      study_of(pin.draft);
-      last_pin_ = std::max(last_pin_, pin.number);
-      pins_.push_back(std::move(pin));
+      // One whose file is gone stays: it may come back, and the others are not its business.
+      pins_.push_back(
+          {p.at("number").get<int>(), p.at("name").get<std::string>(), draft_from(p.at("draft"))});
+      last_pin_ = std::max(last_pin_, pins_.back().number);
     }
     wish_ = kept.value("wish", "");
     wish_of_ = kept.value("wish_of", "");
@@ -209,6 +208,8 @@ std::uint64_t Session::set_toward(const std::string& path, const std::string& te
 
 std::string Session::kind() const { return texture_name(study_.design.texture); }
 
+std::string Session::file_and_kind() const { return draft_.file + " " + kind(); }
+
 std::uint64_t Session::set_kind(const std::string& kind) {
   const std::lock_guard lock(mutex_);
   const auto& kinds = texture_kinds();
@@ -262,7 +263,9 @@ std::uint64_t Session::save_as(const std::string& file,
   write(draft_, study_);
   const Design now = study_of({file, {}}).design;
   for (auto& [draft, design] : standing) draft->changes = changes_between(now, design);
+  const bool own_wish = wish_of_ == file_and_kind();
   adopt({file, {}});
+  if (own_wish) wish_of_ = file_and_kind();
   last_step_ = 0;
   keep();
   return revision_;
@@ -353,7 +356,7 @@ void Session::set_wish(std::string wish) {
   if (wish.size() > kLongest) throw InputError("the wish is too long");
   const std::lock_guard lock(mutex_);
   wish_ = std::move(wish);
-  wish_of_ = draft_.file + " " + kind();
+  wish_of_ = file_and_kind();
   keep();
 }
 
@@ -365,7 +368,7 @@ void Session::forget_wish() {
 
 std::string Session::wish() const {
   const std::lock_guard lock(mutex_);
-  return wish_of_ == draft_.file + " " + kind() ? wish_ : "";
+  return wish_of_ == file_and_kind() ? wish_ : "";
 }
 
 std::uint64_t Session::take(int number) {

@@ -98,6 +98,7 @@ class Session {
   std::uint64_t step_to(std::vector<Draft>& from, std::vector<Draft>& to);
   void adopt(Draft draft);  // reads it
   std::string kind() const;
+  std::string file_and_kind() const;
   void restore(const std::string& file);
   void keep() const;
 

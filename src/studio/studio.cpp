@@ -133,6 +133,19 @@ Json look_json(const Design& design) {
           {"aspect_ratio", json_number(margins.aspect_ratio)}};
 }
 
+// The pinned designs by their numbers. One whose file is gone, or is no design any more, is left
+// out.
+std::map<int, Design> pinned_designs(const std::vector<PinnedDesign>& pins) {
+  std::map<int, Design> out;
+  for (const PinnedDesign& pin : pins) {
+    try {
+      out[pin.number] = study_of(pin.draft).design;
+    } catch (const InputError&) {
+    }
+  }
+  return out;
+}
+
 HttpAnswer refusal(int status, const InputError& error) {
   Json problems = Json::array();
   for (const Problem& p : error.problems())
@@ -227,12 +240,11 @@ Listener Studio::listener() {
 }
 
 void Studio::design_changed() {
-  const SessionView view = session_.view();
-  Wish wish{view.revision, view.study.design, {}, 0};
-  for (const PinnedDesign& pin : view.pins) wish.pinned[pin.number] = study_of(pin.draft).design;
-  evaluator_->wish(std::move(wish));
   const std::lock_guard lock(telling_);
-  Json session = session_json(), rows = std::move(session["keys"]);
+  const SessionView view = session_.view();
+  const std::map<int, Design> pinned = pinned_designs(view.pins);
+  evaluator_->wish({view.revision, view.study.design, pinned, 0});
+  Json session = session_json(view, pinned), rows = std::move(session["keys"]);
   std::optional<Json> moved = moved_since(form_told_, rows);
   if (!moved) {
     form_told_ = std::move(rows);
@@ -248,10 +260,11 @@ std::string Studio::changed(std::uint64_t revision) {
   return Json{{"revision", revision}}.dump();
 }
 
-Json Studio::session_json() const {
-  const SessionView view = session_.view();
+Json Studio::session_json(const SessionView& view, const std::map<int, Design>& pinned) const {
   Json pins = Json::array();
-  for (const PinnedDesign& p : view.pins) pins.push_back({{"number", p.number}, {"name", p.name}});
+  for (const PinnedDesign& p : view.pins)
+    pins.push_back(
+        {{"number", p.number}, {"name", p.name}, {"readable", pinned.contains(p.number)}});
   Json changes = Json::array();
   for (const Change& c : view.draft.changes) changes.push_back({c.path, c.text});
   const fs::path file(view.draft.file);
@@ -273,11 +286,12 @@ Json Studio::session_json() const {
 
 std::string Studio::state() const {
   static const std::string kinds = kinds_json().dump(), words = words_json().dump();
+  const SessionView view = session_.view();
   return fmt::format(
       R"({{"version":"{}","kinds":{},"words":{},"files":{},"session":{},"wish":{},"search":{},"lab":{}}})",
-      PAPILLA_VERSION, kinds, words, files_.list().dump(), session_json().dump(),
-      proposed_wish(session_.view().study, session_.wish()).dump(), desk_->json().dump(),
-      lab_json());
+      PAPILLA_VERSION, kinds, words, files_.list().dump(),
+      session_json(view, pinned_designs(view.pins)).dump(),
+      proposed_wish(view.study, session_.wish()).dump(), desk_->json().dump(), lab_json());
 }
 
 std::string Studio::lab_json() const {

@@ -58,7 +58,9 @@ class Studio {
   void design_changed();
   std::string changed(std::uint64_t revision);
   std::string state() const;
-  nlohmann::ordered_json session_json() const;
+  // pinned: those whose file can be read.
+  nlohmann::ordered_json session_json(const SessionView& view,
+                                      const std::map<int, Design>& pinned) const;
   std::string lab_json() const;
 
   Events events_;
@@ -67,7 +69,8 @@ class Studio {
   Session session_;
   std::map<std::string, Route> routes_;
   std::mutex computing_;  // what takes seconds, one at a time
-  // Of the session: pages get what is another than in the form that they were told.
+  // Of the session, one change at a time and never an earlier one after a later: pages get what is
+  // another than in the form that they were told.
   std::mutex telling_;
   nlohmann::ordered_json form_told_;
   int forms_told_ = 0;

@@ -1,10 +1,13 @@
 // The library as other programs see it: public headers alone.
 #include <gtest/gtest.h>
 #include <papilla/papilla.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <optional>
 
 namespace {
 
@@ -57,6 +60,52 @@ TEST(Library, DrawnHeightsComeBackToTheLastBit) {
   EXPECT_EQ(papilla::Design::parse(design.toml(), drawn).heights(48).z, below_top);
   drawn.z[5] = std::nan("");
   EXPECT_THROW(papilla::Design::from_heights(drawn), papilla::InputError);
+}
+
+// A process that was forked off, as Python's pools are, leaves the file of its parent's map alone.
+TEST(Library, AForkLeavesDrawnHeightsToItsParent) {
+  papilla::Heights drawn{8, 8, 1e-6, 1e-6, std::vector<double>(64, 0)};
+  drawn.z[9] = -1e-7;
+  auto design =
+      std::make_optional(papilla::Design::from_heights(drawn, {{"base", "m3_samples/flat.toml"}}));
+  const pid_t child = ::fork();
+  if (child == 0) {
+    design.reset();
+    ::_exit(0);
+  }
+  ASSERT_GT(child, 0);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(design->with("drive.amplitude", "90 V").heights(8).z, drawn.z);
+}
+
+// What was given for the kind before, when the design was made or later, is none of the new one's.
+TEST(Library, AnotherKindHasNothingOfTheOneBefore) {
+  const papilla::Design holes = papilla::Design::parse(
+      "schema_version = 1\nbase = \"m3_samples/common.toml\"\n", {{"texture.type", "hole_array"},
+                                                                  {"texture.period", "7 um"},
+                                                                  {"texture.diameter", "3 um"},
+                                                                  {"texture.depth:", "3.5e-7"},
+                                                                  {"drive.amplitude", "90 V"}});
+  const papilla::Design flat = holes.with("texture.type", "\"flat\"");
+  EXPECT_THROW(flat.number("texture.period"), papilla::InputError);
+  EXPECT_EQ(flat.number("drive.amplitude"), 90);
+  EXPECT_EQ(flat.with("texture.type", "hole_array").number("texture.period"), 6e-6)
+      << "its default";
+  const papilla::Design grooves =
+      holes.with({{"texture.type", "grating"}, {"texture.period", "8 um"}});
+  EXPECT_EQ(grooves.number("texture.period"), 8e-6);
+  EXPECT_EQ(holes.with("texture.type", "'hole_array'").number("texture.depth"), 350e-9);
+  const papilla::Design file = papilla::Design::parse(kHoles).with("texture.depth", "262 nm");
+  EXPECT_THROW(file.with("texture.type", "flat").number("texture.depth"), papilla::InputError);
+
+  papilla::Heights drawn{8, 8, 1e-6, 1e-6, std::vector<double>(64, 0)};
+  drawn.z[9] = -1e-7;
+  const papilla::Design map =
+      papilla::Design::from_heights(drawn, {{"base", "m3_samples/flat.toml"}});
+  ASSERT_NE(map.with("drive.amplitude", "90 V").drawn(), nullptr);
+  EXPECT_EQ(map.with("texture.type", "flat").drawn(), nullptr);
 }
 
 TEST(Library, ADifferenceOfADesignFromItselfIsNoneAndSure) {

@@ -178,6 +178,21 @@ TEST(SensitivityOfTheLibrary, IsTheChangeOverTheStep) {
   }
 }
 
+// Both ends meet the same skins on the same grid, whatever accuracy the design asks for.
+TEST(SensitivityOfTheLibrary, IsPairedAtATargetOfTheDesign) {
+  const papilla::Design design =
+      papilla::Design::parse(kSmall).with("environment.relative_humidity", "[\"30 %\"]");
+  papilla::SensitivityOptions options;
+  options.keys = {"texture.depth"};
+  const auto of = [&](const papilla::Design& d) {
+    return papilla::sensitivity(d, "mean(friction)", options).at(0);
+  };
+  const papilla::Sensitivity plain = of(design), aimed = of(design.with("accuracy.target", "50 %"));
+  EXPECT_TRUE(aimed.change.paired);
+  EXPECT_EQ(aimed.change.value, plain.change.value);
+  EXPECT_EQ(aimed.change.error, plain.change.error);
+}
+
 TEST(CasesOfTheLibrary, HaveTheNumbersOfTheirDocuments) {
   const papilla::PerssonResult r = papilla::api::persson(
       {"physics/wrist_on_glass.toml",
@@ -501,6 +516,13 @@ TEST(RankingOfTheLibrary, IsItsDocumentInNumbers) {
   }
   EXPECT_NE(r.table.find("one"), std::string::npos);
   EXPECT_EQ(refusal([&] { papilla::api::rank({flat}, options); }), "name two designs at least");
+  options.states.clear();
+  const papilla::Design natural = flat.with("finger.state", "natural"),
+                        wet = angled.with("finger.state", "wet");
+  EXPECT_EQ(refusal([&] {
+              papilla::api::rank({natural, wet}, options);
+            }).substr(0, 52),
+            "the designs' fingers are in different states (finger");
   options.states = "dry";
   EXPECT_EQ(refusal([&] {
               papilla::api::rank({flat, angled}, options);

@@ -124,6 +124,26 @@ skins = 4
   EXPECT_EQ(calibration_warning(good), "");
 }
 
+// What data do not determine at all: no finger file has more than 300 %.
+TEST_F(Calibrate, DeviationsEndWhereAFingerFileDoes) {
+  LeastSquaresFit fit;
+  const auto add = [&](const char* name, double value, double se) {
+    ParameterFit p;
+    p.name = name, p.value = value, p.se = se;
+    fit.parameters.push_back(p);
+  };
+  add("skin.rms", 2e-7, 2e-8);
+  add("skin.layer_modulus", 1e7, 4e7);
+  add("macro.shear_fall", 0, 0.1);
+  fit.correlation = {1, 0.5, 0, 0.5, 1, 0, 0, 0, 1};
+  const std::vector<ParameterDeviation> rows = deviations(fit);
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_NEAR(rows[0].deviation, 0.1, 1e-12);
+  EXPECT_EQ(rows[1].deviation, 3);
+  EXPECT_EQ(rows[1].correlation, std::vector<double>{0.5});
+  EXPECT_EQ(rows[2].deviation, 3);
+}
+
 TEST_F(Calibrate, MistakesOfTheFileAreToldTogether) {
   const std::string file = write("fit.toml", R"(schema_version = 1
 finger = "fingers/reference.toml"

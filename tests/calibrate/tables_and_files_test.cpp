@@ -294,6 +294,9 @@ TEST_F(TablesAndFiles, MistakesOfAFitAreToldInTheirWords) {
             where + "a prior needs its width: `factor` or `sd`\n");
   EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, sd = 2.0 }"),
             where + "a prior needs its width: `factor` or `sd`\n");
+  EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, prior = 2.0, factor = 1.5, sd = "
+                      "0.2 }"),
+            where + "a prior has one width: `factor` or `sd`\n");
   EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, start = 3.1 }"),
             where + "the finger's 3.1 lies outside the bounds\n");
   EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, start = 1.1 }"),

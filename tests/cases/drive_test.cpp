@@ -11,6 +11,7 @@
 #include "base/files.h"
 #include "design/design.h"
 #include "forward/forward.h"
+#include "numerics/statistics.h"
 #include "report/drive.h"
 #include "tests/temporary.h"
 
@@ -228,6 +229,23 @@ TEST(DriveFile, ContactSpotsConductAsStifflyAsTheyPress) {
   const double stiffness = modulus * c.skin.resistivity / (2 * one.spots * one.area);
   EXPECT_LT(finger.patch_pressure(c.gap.relative_humidity) / stiffness, 10e-6);
   EXPECT_GT(finger.patch_pressure(c.gap.relative_humidity) / stiffness, 10e-9);
+  // By the gaps under that pressure and under a twentieth more of it.
+  double by_gaps = 0;
+  for (int k = 0; k < 2; ++k) {
+    double gap[2];
+    for (const int more : {0, 1}) {
+      const Design flat = read_design(kSamples + "flat.toml");
+      Scene scene = scene_of(flat);
+      scene.drive.amplitude = 0;
+      scene.finger.macro.load_share /= more ? 1.05 : 1;
+      gap[more] = mean_estimate(picture_patch(scene, flat.texture, fidelity_of(flat),
+                                              c.gap.relative_humidity, k)
+                                    .fields.off.gap)
+                      .value;
+    }
+    by_gaps += 0.05 * finger.patch_pressure(c.gap.relative_humidity) / (gap[0] - gap[1]) / 2;
+  }
+  EXPECT_NEAR(stiffness, by_gaps, 0.1 * by_gaps);
   EXPECT_NEAR(spots({"skin.resistivity=4e4 ohm m"}).spots / one.spots, 2, 1e-9);
   const DriveResult counted = spots({"gap.contact_spots=true"});
   EXPECT_NEAR(counted.network.gap.layer.resistance,

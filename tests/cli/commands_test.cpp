@@ -186,6 +186,15 @@ TEST(Explain, OfAStudySaysWhatItTakes) {
       << run.out;
 }
 
+// As `optimize` prices it, which keeps no more processors busy.
+TEST(Explain, PricesAStudyOnTheJobsThatItAllows) {
+  const Workplace place;
+  const Outcome run = place.run("explain " PAPILLA_DESIGNS_DIR
+                                "/electroadhesive_glass/study.toml --set search.jobs=1");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find(" on 1 processor as busy"), std::string::npos) << run.out;
+}
+
 TEST(Explain, NamesWhatItSkipsAndWhy) {
   const Workplace place;
   const Outcome undriven = place.run("explain " + kSample + " --set drive.amplitude=0V");
@@ -354,6 +363,38 @@ TEST(Evaluate, ASweepHasRoundValuesAndIsCheckedBeforeItStarts) {
   EXPECT_EQ(wide.status, 2);
   EXPECT_EQ(wide.out, "");
   EXPECT_NE(wide.err.find("at 8 um"), std::string::npos) << wide.err;
+}
+
+// As a single evaluation: a voltage that the dielectric does not hold has no answer.
+TEST(Evaluate, ASweepEndsAsItsWorstValueAndSaysWhatItDoesNotDo) {
+  const Workplace place;
+  const std::string one = kDraft + "--no-model --set 'environment.relative_humidity=[\"50 %\"]' ";
+  const Outcome broken =
+      place.run("evaluate " + kSample + one + "--sweep drive.amplitude=50..1000:2");
+  EXPECT_EQ(broken.status, 1) << broken.err;
+  EXPECT_NE(broken.out.find("  50 V "), std::string::npos) << broken.out;
+  // Moves what no line shows to its last digit.
+  const Outcome little =
+      place.run("evaluate " + kSample + one + "--sweep 'texture.depth=600 nm..600.001 nm:2'");
+  EXPECT_EQ(little.status, 0) << little.err;
+  EXPECT_EQ(little.err.find("moves nothing"), std::string::npos) << little.err;
+  for (const std::string other :
+       {"--out folder", "--voltage-for 0.5", "--pull-in", "--accuracy 5%", "--check-field"}) {
+    const Outcome refused =
+        place.run("evaluate " + kSample + one + "--sweep drive.amplitude=50..200:2 " + other);
+    EXPECT_EQ(refused.status, 2) << other;
+    EXPECT_EQ(refused.out, "") << other;
+    EXPECT_NE(refused.err.find("--sweep goes without " + other.substr(0, other.find(' '))),
+              std::string::npos)
+        << refused.err;
+  }
+  for (const std::string count : {"5x", "4.7", "", "1"}) {
+    const Outcome refused =
+        place.run("evaluate " + kSample + one + "--sweep drive.amplitude=50..200:" + count);
+    EXPECT_EQ(refused.status, 2) << count;
+    EXPECT_NE(refused.err.find("expected a count of 2 to 10000"), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(place.entries(), 0);
 }
 
 TEST(Evaluate, OneHumidityHasNoVariationAndABrokenDielectricIsWarnedOf) {
@@ -601,6 +642,28 @@ TEST(Program, MistakesOnTheCommandLineNameThemselves) {
     EXPECT_EQ(run.status, 2) << arguments;
     EXPECT_NE(run.err.find(message), std::string::npos) << arguments << "\n" << run.err;
   }
+}
+
+// An option that another of a command's works has is not passed over.
+TEST(Program, RefusesOptionsThatItWouldNotObey) {
+  const Workplace place;
+  for (const auto& [arguments, message] : std::vector<std::pair<std::string, std::string>>{
+           {"report run --svg f.svg --out r.html", "--svg is the picture of the front alone"},
+           {"report run --svg f.svg --pick knee", "--svg is the picture of the front alone"},
+           {"bench --prices 5 --json", "--json, --page and --large are of the targets"},
+           {"bench --prices 5 --page", "--json, --page and --large are of the targets"},
+           {"bench --first 7", "--first is of --prices"},
+           {"accuracy " + kSample + " --scenes 20", "--scenes draws scenes of its own"},
+           {"accuracy --scenes 20 --set finger.load=1N", "--scenes draws scenes of its own"},
+           {"accuracy --scenes 20 --grid 64", "--scenes draws scenes of its own"},
+           {"accuracy --tight", "--tight and --first-scene are of --scenes"},
+           {"accuracy --render tables --json", "it takes no other option"}}) {
+    const Outcome run = place.run(arguments);
+    EXPECT_EQ(run.status, 2) << arguments;
+    EXPECT_EQ(run.out, "") << arguments;
+    EXPECT_NE(run.err.find(message), std::string::npos) << arguments << "\n" << run.err;
+  }
+  EXPECT_EQ(place.entries(), 0);
 }
 
 TEST(Reproduce, GivesTheDocumentedJsonAndTables) {

@@ -2,6 +2,7 @@
 // only.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -109,6 +110,22 @@ TEST(Colours, AreForTerminalsAndStopAtNoColor) {
   };
   EXPECT_NE(on_terminal("").find("\033[1m"), std::string::npos);
   EXPECT_EQ(on_terminal("NO_COLOR=1").find('\033'), std::string::npos);
+}
+
+// What has been judged is told, though the tables of the figures came to no end.
+TEST(Reproduce, TellsItsClaimsWhenItsFiguresAreInterrupted) {
+  const Workplace place;
+  const Outcome run =
+      place.shell("'" PAPILLA_PROGRAM
+                  "' reproduce --claim M15 --figures --out mine 2> notes & run=$!; "
+                  "while kill -0 $run && ! grep -q figures: notes; do sleep 0.1; done; "
+                  "kill -INT $run; wait $run; status=$?; cat notes; exit $status");
+  EXPECT_EQ(run.status, 130) << run.out;
+  EXPECT_NE(run.out.find("M15"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("1 claims: "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("interrupted; the claims are judged"), std::string::npos) << run.out;
+  EXPECT_TRUE(std::filesystem::exists(place.path() / "mine/claims.csv"));
+  EXPECT_FALSE(std::filesystem::exists(place.path() / "mine/figures.csv"));
 }
 
 }  // namespace

@@ -639,6 +639,26 @@ TEST(Reader, OverridesAreValuesOrTexts) {
   EXPECT_EQ(set("a = 1\n", {"a.b=5"}), "--set a.b=5: a.b: has no members");
 }
 
+// "texture.period" = ... and [texture] period = ... are two spellings of one path.
+TEST(Reader, OverridesReachKeysThatAreSeveralPartsOfAPath) {
+  EXPECT_EQ(set("[a]\n\"b.c\" = 1\n", {"a.b.c=2"}), "\n[a]\n\"b.c\" = 2\n");
+  EXPECT_EQ(set("[a]\n\"b.c\" = { d = 1 }\n", {"a.b.c.d=2", "a.b.c.e=3"}),
+            "\n[a]\n\"b.c\" = { d = 2, e = 3 }\n");
+  EXPECT_EQ(set("list = [{ \"b.c\" = 1 }]\n", {"list.0.b.c=2"}), "\n[[list]]\n\"b.c\" = 2\n");
+  EXPECT_EQ(set("[a]\n\"b.c\" = 1\n", {"a.b.d=2"}), "\n[a]\n\"b.c\" = 1\n\n[a.b]\nd = 2\n");
+}
+
+// Of a metric with arguments, as constraints are named.
+TEST(Reader, OverridesAreSplitOutsideOfBracketsAndQuotes) {
+  const std::string metric = "[a]\n\"worst(b(c = 0.5))\" = ";
+  EXPECT_EQ(set(metric + "1\n", {"a.worst(b(c = 0.5))=2"}), "\n" + metric + "2\n");
+  EXPECT_EQ(set("b = 1\n", {"a.worst(b(c = 0.5)) = 2"}), "b = 1\n\n" + metric + "2\n");
+  EXPECT_EQ(set("b = 1\n", {"a.\"c = 0.5\"=2"}), "b = 1\n\n[a]\n\"c = 0.5\" = 2\n");
+  EXPECT_EQ(set("b = 1\n", {"b=f(x)=0.5"}), "b = \"f(x)=0.5\"\n");
+  EXPECT_EQ(set("b = 1\n", {"a(b=2"}),
+            "--set a(b=2: expected KEY=VALUE, e.g. drive.amplitude=150V");
+}
+
 // Another kind takes the members away, whatever the order of the settings.
 TEST(Reader, AKindComesBeforeItsMembers) {
   const std::string text = "[texture]\ntype = \"x\"\ndepth = 1\n";

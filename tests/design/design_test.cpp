@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -200,6 +201,52 @@ TEST(Design, ModelOptionsStartFromWhatTheFingerWasFittedWith) {
 TEST(Design, AKindFromTheCommandLineReplacesTheKeysOfTheOtherKind) {
   const Design flat = read_design(kStudy, {"texture.type=flat", "design_space={}"});
   EXPECT_EQ(flat.texture, Texture{});
+}
+
+// However the file and the override spell the path.
+TEST(Study, AnOverrideReplacesTheRangeOfTheFile) {
+  const std::string head =
+      "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n[objective]\nmaximise = "
+      "\"mean(modulation)\"\n";
+  for (const std::string space : {"[design_space]\n\"texture.period\" = [\"4 um\", \"12 um\"]\n",
+                                  "[design_space.texture]\nperiod = [\"4 um\", \"12 um\"]\n"}) {
+    const std::string file =
+        written("space.toml", head + space + "[scatter]\n\"texture.depth\" = \"20 nm\"\n");
+    const Study study = read_study(
+        file, {"design_space.texture.period=[\"5 um\", \"8 um\"]", "scatter.texture.depth=30 nm"});
+    ASSERT_EQ(study.variables.size(), 1u);
+    EXPECT_DOUBLE_EQ(study.variables[0].low, 5e-6);
+    EXPECT_DOUBLE_EQ(study.variables[0].high, 8e-6);
+    ASSERT_EQ(study.scatter.size(), 1u);
+    EXPECT_DOUBLE_EQ(study.scatter[0].tolerance, 30e-9);
+    const Study again = parse_study(resolved_toml(study), "resolved.toml");
+    EXPECT_EQ(again.variables, study.variables);
+  }
+}
+
+TEST(Study, APathStandsOnceInASection) {
+  const std::string head =
+      "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n[objective]\nmaximise = "
+      "\"mean(modulation)\"\n[design_space]\n\"texture.period\" = [\"4 um\", \"12 um\"]\n";
+  EXPECT_EQ(problems_of(head + "[design_space.texture]\nperiod = [\"5 um\", \"8 um\"]\n"),
+            ":8:1: design_space.texture.period: stands twice, as \"texture.period\" and as "
+            "texture.period: keep one of them");
+  EXPECT_EQ(problems_of(head + "[scatter]\n\"texture.depth\" = \"20 nm\"\n[scatter.texture]\n"
+                               "depth = \"30 nm\"\n"),
+            ":10:1: scatter.texture.depth: stands twice, as \"texture.depth\" and as "
+            "texture.depth: keep one of them");
+}
+
+// The metric's own = and dot are no part of the setting's.
+TEST(Study, AnOverrideLimitsAMetricWithArguments) {
+  const Study study =
+      read_study(kStudy, {"constraints.worst(voltage_for(modulation = 0.5))=150 V"});
+  const auto limit =
+      std::find_if(study.constraints.begin(), study.constraints.end(), [](const Constraint& c) {
+        return limit_name(c.on).find("voltage_for") != std::string::npos;
+      });
+  ASSERT_NE(limit, study.constraints.end());
+  EXPECT_DOUBLE_EQ(limit->limit, 150);
 }
 
 TEST(Study, ProblemsAcrossFieldsAreLocated) {

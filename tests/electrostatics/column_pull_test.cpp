@@ -317,5 +317,22 @@ TEST(Breakdown, TheMarginIsThatOfTheWeakestLayer) {
   EXPECT_EQ(dielectric_margin({}, 0, HUGE_VAL), HUGE_VAL);
 }
 
+// Fields are magnitudes: beside a capacitor of 50 nm a resistor as large leaves it 1/|1 - i|.
+TEST(Breakdown, LayersDivideByWhatTheirSeriesCounts) {
+  std::vector<Dielectric> stack(2);
+  stack[0].thickness = 200e-9, stack[0].permittivity = 4, stack[0].strength = 1e9;
+  stack[1].thickness = 100e-9, stack[1].permittivity = 2, stack[1].strength = 1e12;
+  const std::vector<std::complex<double>> turned{1, {0, -1}}, short_cut{1, 1e-9};
+  const double alone = 1 / 0.75;  // 150 V on 200 nm
+  EXPECT_NEAR(dielectric_margin(stack, 150, HUGE_VAL, turned), alone * std::sqrt(2), 1e-12);
+  EXPECT_NEAR(dielectric_margin(stack, 150, HUGE_VAL, short_cut), alone, 1e-8);
+  stack[0].strength = 1e12, stack[1].strength = 1e9;
+  EXPECT_NEAR(dielectric_margin(stack, 150, HUGE_VAL, turned), std::sqrt(2) / 1.5, 1e-12);
+  // A share that all have in common says nothing.
+  const std::vector<std::complex<double>> one{{0.3, -0.4}};
+  EXPECT_NEAR(dielectric_margin({stack.data(), 1}, 150, HUGE_VAL, one), 1e12 / (150 / 200e-9),
+              1e-6);
+}
+
 }  // namespace
 }  // namespace papilla::tests::column_pull_test

@@ -18,7 +18,7 @@ TEST(Limits, ABridgePutsAllOfTheVoltageOnTheFilm) {
   Scene scene;
   scene.drive.amplitude = 200;
   const Texture flat;
-  EXPECT_DOUBLE_EQ(breakdown_voltage(scene.surface, flat), 500);  // 500 nm at 1 GV/m
+  EXPECT_DOUBLE_EQ(breakdown_voltage(scene.surface, flat, scene.drive), 500);  // 500 nm at 1 GV/m
   EXPECT_DOUBLE_EQ(bridged_margin(scene.surface, flat, scene.drive, 200), 2.5);
   EXPECT_DOUBLE_EQ(bridged_margin(scene.surface, flat, scene.drive, 50), 10);
   EXPECT_EQ(bridged_margin(scene.surface, flat, scene.drive, 0), kInfinity);
@@ -41,6 +41,32 @@ TEST(Limits, ALeakyLayerHasNoMarginThatIsKnownBefore) {
   EXPECT_EQ(bridged_margin(scene.surface, flat, scene.drive, 200), kInfinity);
 }
 
+// 100 nm of SiO2 on 10 um of a polymer that leaks: a direct voltage stands on the oxide, a fast one
+// on both by d/eps.
+TEST(Limits, LayersThatLeakLeaveTheVoltageToThoseThatDoNot) {
+  Scene scene;
+  const Texture flat;
+  scene.drive.source_compliance = 0;
+  FilmDielectric oxide = scene.surface.dielectric.front(), polymer = oxide;
+  oxide.thickness = 100e-9;
+  polymer.thickness = 10e-6, polymer.permittivity = 3, polymer.resistivity = 1e8;
+  for (const auto& film : {std::vector{oxide, polymer}, std::vector{polymer, oxide}}) {
+    scene.surface.dielectric = film;
+    scene.drive.waveform = Waveform::Dc;
+    EXPECT_NEAR(amplitude_limit(scene, flat), 100, 0.02);
+    // Of 25.6 and 3333 nm, of which the polymer leaks not yet: 1 GV/m in the polymer comes first.
+    scene.drive.waveform = Waveform::Sine;
+    scene.drive.frequency = 1e6;
+    const double series = 100e-9 / 3.9 + 10e-6 / 3;
+    EXPECT_NEAR(amplitude_limit(scene, flat), 1e9 * 3 * series, 1e-4 * 1e9 * 3 * series);
+    // At its corner the polymer is as much resistor as capacitor: |0.5 - 0.5i| of its d/eps.
+    scene.drive.frequency = polymer.corner_frequency();
+    const double there = std::hypot(100e-9 / 3.9 + 0.5 * 10e-6 / 3, 0.5 * 10e-6 / 3);
+    EXPECT_NEAR(amplitude_limit(scene, flat),
+                1e9 * std::min(3.9 * there, 3 * there / std::sqrt(0.5)), 1);
+  }
+}
+
 TEST(Limits, TheAmplitudeEndsAtTheLeastOfFilmSourceAndKey) {
   Scene scene;
   const Texture flat;
@@ -58,9 +84,9 @@ TEST(Limits, TheAmplitudeEndsAtTheLeastOfFilmSourceAndKey) {
 TEST(Limits, APlanarFilmIsThinnestBelowTheFloorsOfHoles) {
   Scene scene;
   const Texture holes{HoleArray{.depth = 200e-9}};
-  EXPECT_NEAR(breakdown_voltage(scene.surface, holes), 500, 1e-9);
+  EXPECT_NEAR(breakdown_voltage(scene.surface, holes, scene.drive), 500, 1e-9);
   scene.surface.process = FilmProcess::Planar;
-  EXPECT_NEAR(breakdown_voltage(scene.surface, holes), 300, 1e-9);
+  EXPECT_NEAR(breakdown_voltage(scene.surface, holes, scene.drive), 300, 1e-9);
 }
 
 TEST(StepFidelity, IsNoFinerThanDifferencesNeedAndNeverFinerThanGiven) {

@@ -55,6 +55,24 @@ TEST(VoltageFor, DoesNotDependOnTheAmplitudeOfTheDesign) {
   EXPECT_NEAR(a.amplitude.value / b.amplitude.value, 1, 2e-3);
 }
 
+// Nor where the rule is held against the 3-D field, from which it is farther the higher the
+// voltage.
+TEST(VoltageFor, HasTheFieldOfItsOwnAmplitude) {
+  Fidelity f = small(Estimator::Load);
+  f.skins = 2, f.field_skins = 1;
+  Scene scene = scene_at(0.55);
+  std::vector<double> amplitudes;
+  for (const double own : {0.0, 40.0, 300.0}) {
+    scene.drive.amplitude = own;
+    const VoltageAnswer a = voltage(scene, Texture{Flat{}}, f, 0.3);
+    ASSERT_TRUE(a.reached()) << text(a);
+    amplitudes.push_back(a.amplitude.value);
+  }
+  for (const double v : amplitudes) EXPECT_NEAR(v / amplitudes[0], 1, 0.015);
+  scene.drive.amplitude = amplitudes[0];
+  EXPECT_NEAR(evaluate(scene, Texture{Flat{}}, f).points[0].modulation.value, 0.3, 0.01);
+}
+
 TEST(VoltageFor, RisesWithTheModulation) {
   Response r = evaluate(scene_at(0.35), Texture{Flat{}}, small(Estimator::Load));
   const std::vector<double> targets{0.05, 0.2, 0.4};

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <sstream>
@@ -52,6 +53,53 @@ TEST(Wafer, HoldsEveryDesignOnceInEachBlockAndItsControls) {
   EXPECT_EQ(ids.size(), 21u);
   EXPECT_EQ(wafer.plan.fields.front().id, "A1");
   EXPECT_EQ(wafer.plan.fields.back().id, "C7");
+}
+
+// Twelve fields of sixteen: what is left is no kind of one block.
+TEST(Wafer, SharesThePlacesLeftAmongBlocksInBothKinds) {
+  const Wafer wafer(
+      "[wafer]\nrepeats = 2\nflats = 1\nreferences = 1\nreference = \"H2\"\n"
+      "columns = 4\nrows = 4\n");
+  std::map<std::pair<int, FieldKind>, int> fields;
+  for (const WaferField& f : wafer.plan.fields) ++fields[{f.block, f.kind}];
+  for (const int block : {1, 2}) {
+    EXPECT_EQ((fields[{block, FieldKind::Flat}]), 2) << block;
+    EXPECT_EQ((fields[{block, FieldKind::Reference}]), 2) << block;
+  }
+}
+
+// Mask programs merge cells of one name.
+TEST(Wafer, NamesTheCellsOfEveryDesignApart) {
+  const Wafer wafer(
+      "[[design]]\nname = \"H1-A\"\nfile = \"h1.toml\"\n"
+      "[[design]]\nname = \"H1.A\"\nfile = \"h2.toml\"\n"
+      "[[design]]\nname = \"P1.CELL\"\nfile = \"p1.toml\"\n");
+  std::set<std::string> names;
+  for (const LayoutCell& cell : wafer.drawing.layout.cells)
+    EXPECT_TRUE(names.insert(cell.name).second) << cell.name;
+  EXPECT_EQ(names.count("DESIGN_H1_A") + names.count("DESIGN_H1_A_2"), 2u);
+}
+
+TEST(Wafer, HasTheDesignOfARunThatIsBuiltByItsSheet) {
+  const Workplace place;
+  const auto holes = [&](const std::string& file, const char* depth) {
+    std::filesystem::create_directories((place.path() / file).parent_path());
+    place.write(file, array_design("hole_array",
+                                   "period = \"6 um\"\ndiameter = \"3 um\"\nwall_angle = \"85 "
+                                   "deg\"\ndepth = \"" +
+                                       std::string(depth) + "\"\n"));
+  };
+  holes("run/front/01/design.toml", "351.3 nm");
+  holes("run/front/02/design.toml", "502.7 nm");
+  holes("run/best/design.toml", "502.7 nm");
+  holes("run/best/build.toml", "500 nm");
+  const WaferPlan plan = plan_wafer((place.path() / "run").string());
+  std::vector<double> depths;
+  for (const Treatment& t : plan.treatments) {
+    if (const auto* array = std::get_if<HoleArray>(&t.design.texture.kind))
+      depths.push_back(std::round(1e10 * array->depth));
+  }
+  EXPECT_EQ(depths, (std::vector<double>{3513, 5000}));
 }
 
 TEST(Wafer, IsTheSameForASeedAndAnotherForAnother) {

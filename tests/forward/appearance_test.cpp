@@ -3,10 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cmath>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/constants.h"
+#include "geometry/io/files.h"
 #include "tests/support/glass.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests::appearance_test {
 namespace {
@@ -102,6 +108,30 @@ TEST(Appearance, WarnsWhereTheScreenIsRough) {
   EXPECT_NE(appearance(Texture{RandomRough{.rms = 300e-9, .roll_off = 1e-6}}, glass_of(kIndex), {})
                 .warning.find("too steep for a thin screen"),
             std::string::npos);
+}
+
+// A map that is written anew under its name is another surface.
+TEST(Appearance, OfAMapIsThatOfItsFileAsItIs) {
+  const Grid grid{64, 64, 20e-6, 20e-6};
+  const auto written = [&](const std::string& name, double height) {
+    Heightmap map{grid, std::vector<double>(grid.size())};
+    for (int iy = 0; iy < grid.ny; ++iy)
+      for (int ix = 0; ix < grid.nx; ++ix)
+        map(ix, iy) = height * std::cos(2 * kPi * ix / 16) * std::cos(2 * kPi * iy / 16);
+    write_npy(temporary(name), map);
+    Measured3d measured;
+    measured.file = temporary(name), measured.width = 20e-6, measured.patch = 12e-6;
+    return Texture{measured};
+  };
+  const View view = view_from({0, 0.3});
+  const Optics low = appearance(written("seen.npy", 20e-9), glass_of(kIndex), view);
+  ASSERT_NE(low.regime, OpticsRegime::Refused) << low.warning;
+  const auto before = std::filesystem::last_write_time(temporary("seen.npy"));
+  const Texture anew = written("seen.npy", 60e-9);
+  std::filesystem::last_write_time(temporary("seen.npy"), before + std::chrono::seconds(1));
+  const Optics high = appearance(anew, glass_of(kIndex), view);
+  EXPECT_GT(high.haze, 1.5 * low.haze);
+  expect_look(high, appearance(written("other.npy", 60e-9), glass_of(kIndex), view));
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ Banded two_patches() {
 
 TEST(WaterBand, ReachesForcesWholeAndFrictionsByTheirLoads) {
   Banded b = two_patches();
-  add_water_band(b.point, b.patches, WaterModel::Droplets, b.grid, 0.9);
+  add_water_band(b.point, b.patches, WaterModel::Droplets, b.grid, {0.9, 0.9});
   EXPECT_GT(b.band.capillary, 0);
   EXPECT_NEAR(*b.point.capillary_force.parts.water, 0.4 * b.band.capillary, 1e-12);
   EXPECT_NEAR(*b.point.electrostatic_force.parts.water, 0.6 * b.band.pull, 1e-12);
@@ -87,7 +87,7 @@ TEST(WaterBand, AHandOverAddsTheStepsOfItsPatches) {
   Banded b = two_patches();
   b.patches[0].on_its_way = 0.5e-18;
   b.patches[1].on_its_way = 0.25e-18;
-  add_water_band(b.point, b.patches, WaterModel::Droplets, b.grid, 0.9);
+  add_water_band(b.point, b.patches, WaterModel::Droplets, b.grid, {0.9, 0.9});
   const double force = 0.18 * std::hypot(0.5 * 0.5, 0.25 * 1.5) / 2,
                pull = 0.10 * std::hypot(0.5 * 2, 0.25 * 1) / 3;
   EXPECT_NEAR(*b.point.capillary_force.parts.water, 0.4 * std::hypot(b.band.capillary, force),
@@ -98,7 +98,7 @@ TEST(WaterBand, AHandOverAddsTheStepsOfItsPatches) {
 TEST(WaterBand, OfThresholdWaterIsWhatItFallsShortOfDroplets) {
   Banded b = two_patches();
   b.point.modulation.value = -0.3;
-  add_water_band(b.point, b.patches, WaterModel::Threshold, b.grid, 0.9);
+  add_water_band(b.point, b.patches, WaterModel::Threshold, b.grid, {0.9, 0.9});
   const double missing = threshold_shortfall(3e-18 / b.grid.area());
   EXPECT_NEAR(*b.point.modulation.parts.water, 0.3 * missing / (1 - missing), 1e-12);
   EXPECT_FALSE(b.point.friction_off.parts.water);

@@ -325,6 +325,21 @@ TEST(Balance, APatchTouchesWithTheHighestOfItsPlaces) {
   EXPECT_EQ(touching_gap(0, 1, 144e-12), 0);
 }
 
+// Eq. scene.13: hydrated skin that has lost a tenth of its relief is skin that has a tenth less.
+TEST(Balance, OpenGapsAreThoseOfTheReliefThatIsLeft) {
+  Scene lost = balanced(60);
+  lost.finger.skin.hydration = 0.2;
+  lost.finger.skin.relief_saturated = 0.5;
+  Scene less = lost;
+  less.finger.skin.relief_saturated = 1;
+  less.finger.skin.rms *= 0.9;
+  const Balance a = solved(lost, 1, holes(300e-9)), b = solved(less, 1, holes(300e-9));
+  ASSERT_GT(b.far.pull, 0);
+  EXPECT_NEAR(a.far.pull, b.far.pull, 1e-9 * b.far.pull);
+  EXPECT_NEAR(a.far.capillary, b.far.capillary, 1e-9 * std::abs(b.far.capillary));
+  EXPECT_NEAR(a.pressed_on, b.pressed_on, 1e-9 * b.pressed_on);
+}
+
 // Eq. coupling.6: what gives without end finds no more patches than the ridges have.
 TEST(Balance, ASoftFilmIsCarriedByNoMoreThanTheRidges) {
   Scene scene;
@@ -341,6 +356,10 @@ TEST(Balance, ASoftFilmIsCarriedByNoMoreThanTheRidges) {
                 1e-6 * bridge.carrying_share() * bridge.mean_pressure());
     share = bridge.carrying_share();
     EXPECT_EQ(bridge.combine(std::vector<PatchResult>(1)).status.sound(), share < 0.95 * most);
+    // Which hides no patch whose gap closes.
+    std::vector<PatchResult> closes(1);
+    closes[0].status.note({Trouble::ClosedPullIn, 0, ""});
+    EXPECT_TRUE(bridge.combine(closes).status.pull_in()) << modulus;
   }
   EXPECT_GT(share, 0.95 * most);
   Scene balance = balanced(150);

@@ -158,6 +158,43 @@ TEST(DrivePatch, ByTheLoadLawTheFieldPullsOverTheGapAtRest) {
   EXPECT_EQ(fields.wetting_on.bridged, on.bridged);
 }
 
+// What stands on the film is divided as its layers leak: a direct voltage stands on the oxide.
+TEST(DrivePatch, TheMarginIsThatOfTheLayerThatHoldsTheVoltage) {
+  Scene scene = driven(100);
+  scene.drive.waveform = Waveform::Dc;
+  FilmDielectric oxide = scene.surface.dielectric.front(), polymer = oxide;
+  oxide.thickness = 100e-9;
+  polymer.thickness = 10e-6, polymer.permittivity = 3, polymer.resistivity = 1e8;
+  scene.surface.dielectric = {polymer, oxide};
+  const Patch patch(scene);
+  PatchStates states;
+  const PatchResult r = solve_patch(patch.problem, patch.plan, patch.fidelity, states);
+  ASSERT_GT(r.peak_oxide_field, 0);
+  const double on_film = r.peak_oxide_field * 10.1e-6;  // [V]
+  EXPECT_NEAR(r.oxide_margin, 1e9 * 100e-9 / on_film, 1e-3 * r.oxide_margin);
+}
+
+// The contact carries what presses: the preload, and under tractions what they add.
+TEST(DrivePatch, PressuresOfSofterSkinCarryTheLoad) {
+  const Patch by_load(driven(150));
+  ASSERT_GT(by_load.softness(), 1.3);
+  PatchStates states;
+  PatchFields fields;
+  solve_patch(by_load.problem, by_load.plan, by_load.fidelity, states, &fields);
+  EXPECT_NEAR(mean(fields.off.pressure), kPressure, 1e-4 * kPressure);
+  EXPECT_EQ(fields.on.pressure, fields.off.pressure);
+  const Patch by_area(driven(150), Estimator::Area);
+  states = {};
+  const PatchResult r =
+      solve_patch(by_area.problem, by_area.plan, by_area.fidelity, states, &fields);
+  EXPECT_NEAR(mean(fields.off.pressure), kPressure + r.capillary_off / by_area.area(),
+              0.01 * kPressure);
+  EXPECT_NEAR(mean(fields.on.pressure), kPressure + (r.capillary_on + r.pull) / by_area.area(),
+              0.01 * kPressure);
+  // What the next humidity starts from stays at the moduli of the kernel.
+  EXPECT_NEAR(mean(states.dry.pressure), by_area.softness() * kPressure, 1e-3 * kPressure);
+}
+
 // Eq. coupling.1: capillary tractions before the drive, the water of the drive and the field under
 // it, each one solve more.
 TEST(DrivePatch, BySolvedAreasEveryTractionPressesTheSkin) {
@@ -241,11 +278,11 @@ TEST(DrivePatch, InEquilibriumItIsContactUnderItsOwnFieldAndWater) {
   const FieldSolution field = patch.pull(gap, fields.wetting_on);
   // The contact is solved once more, to its last tolerance, after the pull that settled.
   EXPECT_NEAR(r.pull, 0.8 * field.mean_pressure * patch.area(), 1e-3 * r.pull);
-  EXPECT_EQ(r.area_on, measure_area(*patch.kernel, fields.on).near_edge);
+  EXPECT_EQ(r.area_on, measure_area(*patch.kernel, states.on).near_edge);
   const WaterProperties water = patch.water(driven_contact_angle(patch.setup.scene(), kHumidity));
   std::vector<double> total = capillary_traction(fields.wetting_on, gap, water).value;
   for (std::size_t i = 0; i < total.size(); ++i) total[i] += 0.8 * field.traction.value[i];
-  const ContactSolution next = patch.contact(total, &fields.on);
+  const ContactSolution next = patch.contact(total, &states.on);
   const double settled =
       0.8 * patch.pull({patch.plan.grid, next.gap}, fields.wetting_on).mean_pressure * patch.area();
   EXPECT_NEAR(settled, r.pull, 0.03 * r.pull);

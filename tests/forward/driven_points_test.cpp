@@ -62,15 +62,16 @@ TEST(UndrivenPatchesLaws, AnswerAsARunOfTheirVoltage) {
   }
 }
 
-// The rule is corrected on the water of a volt, where no voltage is known yet, else of the scene's.
-TEST(UndrivenPatchesLaws, AreCorrectedOnce) {
+// The rule is corrected on the water of a volt, where no voltage is known yet, else of the scene's,
+// until another is asked for.
+TEST(UndrivenPatchesLaws, AreCorrectedAsAtOneAmplitude) {
   Scene scene;
   scene.environment.relative_humidity = {0.6};
   Fidelity f = small(Estimator::Load);
   f.field_skins = 1;
   for (const double amplitude : {0.0, 80.0}) {
     scene.drive.amplitude = amplitude;
-    const UndrivenPatches patches(scene, Texture{}, f);
+    UndrivenPatches patches(scene, Texture{}, f);
     Scene measured = scene;
     measured.drive.amplitude = amplitude > 0 ? amplitude : 1;
     const FieldRatio ratio = field_ratios(measured, Texture{}, f)[0];
@@ -80,7 +81,14 @@ TEST(UndrivenPatchesLaws, AreCorrectedOnce) {
     EXPECT_EQ(p.field_error, ratio.error);
     EXPECT_NEAR(*p.electrostatic_force.parts.field, *ratio.error * p.electrostatic_force.value,
                 1e-12);
+    EXPECT_EQ(patches.corrected_at(), measured.drive.amplitude);
+    patches.correct_at(120);
+    measured.drive.amplitude = 120;
+    EXPECT_EQ(patches.drive(120, Estimator::Load).field_correction,
+              field_ratios(measured, Texture{}, f)[0].correction);
   }
+  f.field_skins = 0;
+  EXPECT_EQ(UndrivenPatches(scene, Texture{}, f).corrected_at(), 0);
 }
 
 TEST(UndrivenPatchesLaws, ByAreasOrTheLoadLawAsAsked) {

@@ -42,6 +42,15 @@ TEST(DrivenAngle, OfASquareWaveIsThatOfItsAmplitude) {
   EXPECT_NEAR(gain(scene), expected, 0.01 * expected);
 }
 
+// Half of the sine's: the pull has the same.
+TEST(DrivenAngle, OfAModulatedCarrierIsThatOfItsMeanSquare) {
+  Scene scene = scene_of(Waveform::Am, 10);
+  scene.drive.envelope_exponent = 0.5;
+  const double expected = lippmann_gain(scene, 10.0 * 10 / 4);
+  EXPECT_NEAR(gain(scene), expected, 0.01 * expected);
+  EXPECT_NEAR(square(field_problem(scene, 0.5).v_rms), 10.0 * 10 / 4, 1e-9);
+}
+
 TEST(DrivenAngle, GrowsWithTheSquareOfTheVoltageAndIsRestAtNone) {
   EXPECT_NEAR(gain(scene_of(Waveform::Sine, 10)) / gain(scene_of(Waveform::Sine, 5)), 4, 0.02);
   EXPECT_EQ(driven_contact_angle(scene_of(Waveform::Sine, 0), 0.5), 110 * kPi / 180);

@@ -144,6 +144,9 @@ TEST(ErrorLaws, EveryQuantityHasItsLaw) {
                             &ResponsePoint::area_fraction_off, &ResponsePoint::area_fraction_on})
     EXPECT_EQ(grid_law(area), GridLaw::Area);
   EXPECT_EQ(grid_law(&ResponsePoint::modulation), GridLaw::Modulation);
+  // Friction by a coefficient is of no area.
+  EXPECT_EQ(grid_law(&ResponsePoint::friction_on, true), GridLaw::Other);
+  EXPECT_EQ(grid_law(&ResponsePoint::area_fraction_on, true), GridLaw::Area);
   EXPECT_EQ(grid_law(&ResponsePoint::electrostatic_force), GridLaw::Pull);
   for (const Member other :
        {&ResponsePoint::capillary_force, &ResponsePoint::retention_force, &ResponsePoint::bridges,
@@ -245,7 +248,7 @@ TEST(FieldRatioLaws, APullThatIsOffMovesWhatStandsOnIt) {
   p.area_fraction_on.value = 0.3;
   p.friction_on.value = 10, p.retention_force.value = 1, p.retention_gain = 0.5;
   p.modulation.value = 0.6;
-  add_field_error({1.1, 0.04}, 0.8, p);
+  add_field_error({1.1, 0.04}, {0.8, 0.8}, p);
   const double relative = 0.8 * 0.6 * 0.04;
   EXPECT_EQ(p.field_correction, 1.1);
   EXPECT_EQ(p.field_error, 0.04);
@@ -254,17 +257,22 @@ TEST(FieldRatioLaws, APullThatIsOffMovesWhatStandsOnIt) {
   EXPECT_NEAR(*p.friction_on.parts.field, relative * 8.5, 1e-12);
   EXPECT_NEAR(*p.modulation.parts.field, relative * 1.6, 1e-12);
   EXPECT_FALSE(p.friction_off.parts.field || p.capillary_force.parts.field);
+  // With a coefficient friction goes with the load itself, and the area as before.
+  add_field_error({1.1, 0.04}, load_exponents(0.8, 0.3), p);
+  EXPECT_NEAR(*p.area_fraction_on.parts.field, relative * 0.3, 1e-12);
+  EXPECT_NEAR(*p.friction_on.parts.field, 0.6 * 0.04 * 8.5, 1e-12);
+  EXPECT_NEAR(*p.modulation.parts.field, 0.6 * 0.04 * 1.6, 1e-12);
   // A finger that the drive lifts off, and one whose loads fall, have none of contact.
   ResponsePoint lifted;
   lifted.samples.load_off = {1}, lifted.samples.load_on = {0};
   lifted.friction_on.value = 2;
-  add_field_error({1, 0.04}, 0.8, lifted);
+  add_field_error({1, 0.04}, {0.8, 0.8}, lifted);
   EXPECT_EQ(*lifted.friction_on.parts.field, 0);
   lifted.samples.load_on = {0.5};
-  add_field_error({1, 0.04}, 0.8, lifted);
+  add_field_error({1, 0.04}, {0.8, 0.8}, lifted);
   EXPECT_EQ(*lifted.friction_on.parts.field, 0);
   ResponsePoint unmeasured;
-  add_field_error({0.9, std::nullopt}, 0.8, unmeasured);
+  add_field_error({0.9, std::nullopt}, {0.8, 0.8}, unmeasured);
   EXPECT_EQ(unmeasured.field_correction, 0.9);
   EXPECT_FALSE(unmeasured.electrostatic_force.parts.field);
 }

@@ -77,6 +77,21 @@ TEST(FieldRatio, IsThatOfThePullsOfTheFirstSkins) {
   EXPECT_NEAR(ratios[0].correction, full / rule, 1e-6);
 }
 
+TEST(FieldRatio, ASkinWithoutA3DFieldIsNoSkinWithoutAPull) {
+  using Full = std::vector<std::optional<double>>;
+  const std::vector<double> rule{1e3, 2e3, 4e3};
+  const FieldRatio two = field_ratio(Full{800, std::nullopt, 3200}, rule, true);
+  EXPECT_NEAR(two.correction, 0.8, 1e-12);
+  EXPECT_NEAR(*two.error, std::hypot(0.02, 0.03 / std::sqrt(2)), 1e-12);
+  const FieldRatio none = field_ratio(Full(3), rule, true);
+  EXPECT_EQ(none.correction, 1);
+  EXPECT_EQ(*none.error, 1);
+  // A flooded skin has a field and no pull.
+  const std::vector<double> flooded{1e3, 0};
+  EXPECT_NEAR(*field_ratio(Full{800, 0.0}, flooded, true).error,
+              std::hypot(0.02, 0.03 / std::sqrt(2)), 1e-12);
+}
+
 // A relative error of the pull moves the friction of contact by beta times the share of the pull
 // in the load.
 TEST(FieldRatio, TheErrorOfThePullReachesModulationAndFriction) {
@@ -86,7 +101,7 @@ TEST(FieldRatio, TheErrorOfThePullReachesModulationAndFriction) {
       std::accumulate(point.samples.load_off.begin(), point.samples.load_off.end(), 0.0);
   const double after =
       std::accumulate(point.samples.load_on.begin(), point.samples.load_on.end(), 0.0);
-  add_field_error({0.8, 0.01}, 0.84, point);
+  add_field_error({0.8, 0.01}, {0.84, 0.84}, point);
   EXPECT_EQ(point.field_correction, 0.8);
   EXPECT_DOUBLE_EQ(*point.electrostatic_force.parts.field, 0.01 * point.electrostatic_force.value);
   const double relative = 0.84 * (after - before) / after * 0.01;

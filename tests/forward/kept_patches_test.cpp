@@ -5,12 +5,18 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/watch.h"
 #include "config/describe.h"
 #include "design/design.h"
 #include "forward/forward.h"
+#include "geometry/io/files.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests::kept_patches_test {
 namespace {
@@ -83,6 +89,52 @@ TEST(KeptPatches, SpareTheContactSolvesWhenOnlyTheVoltageMoves) {
       EXPECT_LT(again.contact_solves, kept_response(design, none).contact_solves);
     }
   }
+}
+
+// Dry skin at rest is one skin; driven, those that its equilibrium is solved on.
+TEST(KeptPatches, GrowWithTheSkinsThatADriveAsksFor) {
+  Scene scene = scene_of(read_design(PAPILLA_DESIGNS_DIR "/m3_samples/flat.toml"));
+  scene.model.coupling = Coupling::Equilibrium;
+  scene.environment.relative_humidity = {0.3};
+  scene.environment.weights.clear();
+  for (double& volume : scene.finger.water.volume) volume = 0;
+  Fidelity one = small();
+  one.skins = 1, one.equilibrium_skins = 3;
+  KeptPatches kept;
+  for (const double amplitude : {0.0, 120.0, 0.0, 90.0}) {
+    scene.drive.amplitude = amplitude;
+    const Response after = respond(scene, one, kept.solve(scene, Texture{}, one));
+    EXPECT_EQ(after.points, evaluate(scene, Texture{}, one).points) << amplitude;
+  }
+  EXPECT_EQ(kept.held(), KeptPatches::Held::Water);
+}
+
+// A map that is written anew under its name is another texture.
+TEST(KeptPatches, HoldNothingOfAMapThatWasWrittenAnew) {
+  Design design = read_design(PAPILLA_DESIGNS_DIR "/m3_samples/flat.toml");
+  design.environment.relative_humidity = {0.3};
+  design.environment.weights.clear();
+  const std::string file = temporary("kept.npy");
+  const auto write = [&](double height) {
+    const Grid grid{64, 64, 20e-6, 20e-6};
+    Heightmap map{grid, std::vector<double>(grid.size(), 0)};
+    for (int ix = 0; ix < 64; ix += 2) map(ix, 32) = height;
+    write_npy(file, map);
+  };
+  Measured3d measured;
+  measured.file = file, measured.width = 20e-6, measured.patch = 12e-6;
+  design.texture = Texture{measured};
+  KeptPatches kept;
+  write(100e-9);
+  const auto before = std::filesystem::last_write_time(file);
+  kept_response(design, kept);
+  kept_response(design, kept);
+  EXPECT_EQ(kept.held(), KeptPatches::Held::Water);
+  write(300e-9);
+  std::filesystem::last_write_time(file, before + std::chrono::seconds(1));
+  const Response after = kept_response(design, kept);
+  EXPECT_EQ(kept.held(), KeptPatches::Held::Nothing);
+  EXPECT_EQ(after.points, evaluate(scene_of(design), design.texture, small()).points);
 }
 
 TEST(KeptPatches, AStoppedRunLeavesNothingBehind) {

@@ -178,14 +178,32 @@ TEST(Point, TheSolversPartIsOfTheWorstCertificate) {
   }
 }
 
-TEST(Point, TroubleIsTheFirstPatchesOrContactOfMoreThanThePatch) {
+// Eq. friction.4: what an attraction lacks is a share of the load, and friction by a coefficient
+// lacks all of it.
+TEST(Point, FrictionByACoefficientIsOffAsTheLoadIs) {
+  Case c;
+  c.patches[0].coupling_residual = 0.01;
+  for (PatchResult& p : c.patches) p.certificate = 0;
+  const ResponsePoint by_areas = c.point();
+  c.scene.touch.coefficient = 0.3;
+  const ResponsePoint by_load = c.point();
+  const double beta = c.fidelity.load_exponent;
+  EXPECT_NEAR(*by_areas.friction_on.parts.solver, 0.01 * beta * by_areas.friction_on.value, 1e-12);
+  EXPECT_NEAR(*by_load.friction_on.parts.solver, 0.01 * by_load.friction_on.value, 1e-12);
+  EXPECT_NEAR(*by_load.area_fraction_on.parts.solver, 0.01 * beta * by_load.area_fraction_on.value,
+              1e-12);
+}
+
+TEST(Point, TroubleIsTheFirstPatchesAPullInOrContactOfMoreThanThePatch) {
   Case c;
   EXPECT_TRUE(c.point().status.sound());
   EXPECT_EQ(c.point(1000).status.trouble, Trouble::FullContact);
   EXPECT_NEAR(c.point(1000).status.number, 20 * std::pow(1.2, c.fidelity.load_exponent), 1e-9);
   c.patches[1].status.note({Trouble::Flooded, 0, ""});
-  c.patches[2].status.note({Trouble::ClosedPullIn, 0, ""});
+  c.patches[2].status.note({Trouble::PassesUsedUp, 0, ""});
   EXPECT_EQ(c.point(1000).status.trouble, Trouble::Flooded);
+  c.patches[2].status.note({Trouble::ClosedPullIn, 0, ""});
+  EXPECT_EQ(c.point(1000).status.trouble, Trouble::ClosedPullIn);
 }
 
 TEST(Point, WithoutADriveThereIsNoModulation) {

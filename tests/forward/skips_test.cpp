@@ -121,7 +121,8 @@ TEST(PlanSkips, TheLoadLawIsAsFarOffAsOnTheCommittedScenes) {
   }
 }
 
-// A priori estimates hold on the published sample's patches; only measured ones are called bounds.
+// A priori estimates hold on the published sample's patches, for skin as it is at 15 % RH: on
+// softer skin the same contact carries less. Only measured ones are called bounds.
 TEST(PlanSkips, AreEstimatesUntilMeasured) {
   Scene scene;
   scene.drive.amplitude = 200;
@@ -135,7 +136,7 @@ TEST(PlanSkips, AreEstimatesUntilMeasured) {
     EXPECT_TRUE(a.estimate) << a.name();
     if (a.piece != Piece::Kelvin) continue;
     EXPECT_FALSE(b.estimate);
-    EXPECT_GE(a.bound, b.bound);
+    EXPECT_GE(a.bound, b.bound * scene.finger.skin.modulus_factor(0.55));
   }
 }
 

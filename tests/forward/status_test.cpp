@@ -24,8 +24,22 @@ TEST(Status, TheFirstTroubleIsKept) {
   status.note({});
   EXPECT_TRUE(status.sound());
   status.note({Trouble::Flooded, 0, ""});
-  status.note({Trouble::ClosedPullIn, 0, ""});
+  status.note({Trouble::PassesUsedUp, 0, ""});
   EXPECT_EQ(status.trouble, Trouble::Flooded);
+  status.note({});
+  EXPECT_EQ(status.trouble, Trouble::Flooded);
+}
+
+TEST(Status, NoTroubleHidesAPullIn) {
+  for (int t = 0; t < kTroubles; ++t) {
+    ModelStatus status{static_cast<Trouble>(t), 0, ""};
+    const Trouble first = status.trouble;
+    const bool closed = status.pull_in();
+    status.note({Trouble::GrowingPullIn, 0, ""});
+    EXPECT_EQ(status.trouble, closed ? first : Trouble::GrowingPullIn) << t;
+    status.note({Trouble::Flooded, 0, ""});
+    EXPECT_TRUE(status.pull_in()) << t;
+  }
 }
 
 TEST(Status, OnlyATroubleWithoutEquilibriumIsPullIn) {

@@ -107,7 +107,7 @@ TEST(WaterBandLimits, NothingIsUnsureOfALoadThatIsGone) {
   point.bridges.value = 12, point.wetted_fraction.value = 0.1;
   point.area_fraction_off.value = 0.01, point.area_fraction_on.value = 0.02;
   point.modulation.value = -0.5;
-  add_water_band(point, patches, WaterModel::Droplets, grid, 0.8);
+  add_water_band(point, patches, WaterModel::Droplets, grid, {0.8, 0.8});
   const DropletBand band = droplet_band(3e-18 / grid.area(), 200e-9, 1.0 / 3);
   EXPECT_EQ(point.friction_off.parts.water, 0);  // 2 uN less 3
   EXPECT_EQ(point.area_fraction_off.parts.water, 0);
@@ -123,7 +123,7 @@ TEST(WaterBandLimits, NothingIsUnsureOfALoadThatIsGone) {
   // Water on its way adds 18 % of its share of a force that draws the other way as well.
   for (PatchResult& p : patches) p.on_its_way = 0.5e-18;
   patches[1].on_its_way = 0;
-  add_water_band(point, patches, WaterModel::Droplets, grid, 0.8);
+  add_water_band(point, patches, WaterModel::Droplets, grid, {0.8, 0.8});
   EXPECT_NEAR(*point.retention_force.parts.water,
               0.2 * std::hypot(band.capillary, 0.18 * 0.5 * 1.5 / 3), 1e-12);
   EXPECT_NEAR(*point.modulation.parts.water, 0.5 * std::hypot(band.pull, 0.10 * 0.5 * 2 / 4),

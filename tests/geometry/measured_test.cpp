@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -215,6 +216,29 @@ TEST(MeasuredMap, RepeatsWithoutAStep) {
     across = std::max({across, std::abs(h(0, i) - h(95, i)), std::abs(h(i, 0) - h(i, 95))});
   }
   EXPECT_LT(across, 1.2 * inside);
+}
+
+// Of a file that changes behind its time and size what was read of it is told, for as long as that
+// is kept: memory does not grow with every map that a program draws.
+TEST(MeasuredMaps, AreKeptUntilManyOthersWereRead) {
+  const TemporaryFolder folder;
+  const Grid grid{8, 8, 4e-6, 4e-6};
+  const auto flat = [&](const std::string& name, double height) {
+    const std::string file = (folder.path() / name).string();
+    write_npy(file, {grid, std::vector<double>(grid.size(), height)});
+    return file;
+  };
+  const auto height = [&](const std::string& file) {
+    return patch_of_map({.file = file, .width = grid.lx, .as_is = true}, grid.lx, {}, grid).z[0];
+  };
+  const std::string first = flat("first.npy", 0);
+  const double before = height(first);
+  const auto time = std::filesystem::last_write_time(first);
+  flat("first.npy", 1e-7);
+  std::filesystem::last_write_time(first, time);
+  EXPECT_EQ(height(first), before);
+  for (int i = 0; i < 300; ++i) height(flat(std::to_string(i) + ".npy", 0));
+  EXPECT_EQ(height(first), 1e-7);
 }
 
 }  // namespace

@@ -202,6 +202,10 @@ TEST(Dose, IsTheInverseOfTheCurveAndCountsWhatItClips) {
   EXPECT_EQ(dose.highest, 255);
   EXPECT_EQ(dose.deep, 1u);
   EXPECT_EQ(dose.shallow, 0u);
+  // Of another system, with a note above its heading.
+  std::ofstream(path, std::ios::binary)
+      << "# of the writer\r\n\r\ndepth_nm,grey\r\n0,10\r\n100,60\r\n";
+  EXPECT_EQ(read_dose_curve(path).grey, (std::vector<double>{10, 60}));
   std::ofstream(path) << "depth_nm,grey\n0,10\n100,60\n80,255\n";
   EXPECT_THROW(read_dose_curve(path), InputError);
   for (const char* wrong : {"0,10\n100,word\n", "0,10\n100,256\n", "0,-1\n100,20\n",

@@ -54,9 +54,9 @@ TEST(DecisionGain, MeasuresWhatDecidesNotWhatIsLeastKnown) {
   BatchOptions one;
   one.count = 1;
   DecisionGain decision(e, k, none, limits, 400);
-  EXPECT_EQ(choose_batch(all, decision, one).front().candidate, 1u);
+  EXPECT_EQ(choose_batch(all, decision, one).chosen.front().candidate, 1u);
   const auto parameters = parameters_gain(e, none, instrument);
-  EXPECT_EQ(choose_batch(all, *parameters, one).front().candidate, 0u);
+  EXPECT_EQ(choose_batch(all, *parameters, one).chosen.front().candidate, 0u);
 }
 
 TEST(DecisionGain, LeavesOutADesignThatDoesNotKeepItsLimits) {
@@ -115,7 +115,7 @@ TEST(Batch, PaysForAHumidityOnceAndKeepsToItsTime) {
   options.costs = {60, 3600, 0, 0};
   options.seconds = 2 * 3600;
   const std::vector<Candidate> all{candidate(0, 0.5), candidate(1, 0.5)};
-  const std::vector<Chosen> batch = choose_batch(all, *gain, options);
+  const std::vector<Chosen> batch = choose_batch(all, *gain, options).chosen;
   double seconds = 0;
   std::vector<std::size_t> indices;
   for (const Chosen& c : batch) {
@@ -126,6 +126,30 @@ TEST(Batch, PaysForAHumidityOnceAndKeepsToItsTime) {
   EXPECT_EQ(seconds, seconds_of(all, indices, options.costs));
   EXPECT_EQ(batch.size(), 10u);  // nine more touches at the first humidity for the price of one
   for (const std::size_t i : indices) EXPECT_EQ(i, indices.front());
+}
+
+TEST(Batch, SaysWhyItHoldsNoMore) {
+  struct Constant final : Gain {
+    double gain;
+    explicit Constant(double g) : gain(g) {}
+    double of(const Candidate&) const override { return gain; }
+    void take(const Candidate&) override {}
+  };
+  BatchOptions options;
+  options.count = 2;
+  options.costs = {300, 1800, 300, 1200};
+  const std::vector<Candidate> all{candidate(0, 0.5), candidate(1, 0.5)};
+  const auto chosen = [&](double gain, double seconds) {
+    Constant constant(gain);
+    options.seconds = seconds;
+    return choose_batch(all, constant, options);
+  };
+  EXPECT_EQ(chosen(0.1, 0).end, BatchEnd::Count);
+  EXPECT_EQ(chosen(0, 0).end, BatchEnd::Nothing);
+  const Batch short_of_time = chosen(0.1, 2700);
+  EXPECT_EQ(short_of_time.end, BatchEnd::Time);
+  EXPECT_TRUE(short_of_time.chosen.empty());
+  EXPECT_EQ(short_of_time.shortest, 3600);
 }
 
 TEST(Batch, IsTheSameForAnyNumberOfThreads) {
@@ -142,7 +166,7 @@ TEST(Batch, IsTheSameForAnyNumberOfThreads) {
     BatchOptions options;
     options.threads = threads;
     std::vector<std::size_t>& of = found.emplace_back();
-    for (const Chosen& c : choose_batch(all, gain, options)) of.push_back(c.candidate);
+    for (const Chosen& c : choose_batch(all, gain, options).chosen) of.push_back(c.candidate);
   }
   EXPECT_EQ(found[0], found[1]);
   EXPECT_EQ(found[0].size(), 10u);

@@ -75,5 +75,51 @@ TEST(Gauge, PartsRepeatsDaysAndFingers) {
   EXPECT_EQ(used.model, stated.model);
 }
 
+FrictionReading gauge_reading(int design, int finger, int day, double logarithm) {
+  FrictionReading r;
+  r.experiment.design = static_cast<std::size_t>(design);
+  r.finger = std::to_string(finger);
+  r.day = std::to_string(day);
+  r.off = 0.1 * std::exp(logarithm);
+  return r;
+}
+
+// No finger has a second day: what repeats differ by is none of the fingers'.
+TEST(Gauge, TakesRepeatsOffFingersOfOneDay) {
+  RandomStream random(11, "gauge");
+  std::vector<FrictionReading> readings;
+  for (int finger = 0; finger < 3000; ++finger) {
+    const double of_finger = 0.1 * random.normal();
+    for (int repeat = 0; repeat < 2; ++repeat)
+      readings.push_back(gauge_reading(0, finger, 0, of_finger + 0.2 * random.normal()));
+  }
+  const Gauge g = gauge_of(readings);
+  EXPECT_EQ(g.day_to_day.freedom, 0);
+  // .17 with that of the repeats. A variance of .03 is known to 3 %.
+  EXPECT_NEAR(g.finger_to_finger.deviation, 0.1, 0.03);
+}
+
+// Fingers of one to three days, of one touch on the first, two on the second and three on the
+// third, and designs that one finger touched once, which say nothing of how fingers or days differ.
+TEST(Gauge, PartsFingersOfUnlikeNumbersOfReadings) {
+  RandomStream random(12, "gauge");
+  std::vector<FrictionReading> readings;
+  for (int finger = 0; finger < 6000; ++finger) {
+    const double of_finger = 0.1 * random.normal();
+    for (int day = 0; day <= finger % 3; ++day) {
+      const double of_day = 0.1 * random.normal();
+      for (int repeat = 0; repeat <= day; ++repeat)
+        readings.push_back(
+            gauge_reading(0, finger, day, of_finger + of_day + 0.2 * random.normal()));
+    }
+  }
+  for (int design = 1; design <= 2000; ++design)
+    readings.push_back(gauge_reading(design, 0, 0, 0.3 * random.normal()));
+  const Gauge g = gauge_of(readings);
+  EXPECT_NEAR(g.repeatability.deviation, 0.2, 0.02);
+  EXPECT_NEAR(g.day_to_day.deviation, 0.1, 0.03);
+  EXPECT_NEAR(g.finger_to_finger.deviation, 0.1, 0.03);
+}
+
 }  // namespace
 }  // namespace papilla::tests::discrepancy_test

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "lab/member_model.h"
 #include "tests/lab/ensembles.h"
 
 namespace papilla::tests::evidence_test {
@@ -28,6 +29,20 @@ TEST(Kernels, KeepMeanAndCovarianceOfTheMembers) {
   // Two directions of unlike size: (1.29 + 1.04)^2 / ... lies between 1 and 2 dimensions.
   EXPECT_GT(k.width, 0.4);
   EXPECT_LT(k.width, 0.65);
+}
+
+// Two skins of the own level, then two of the move of each member: its friction is what they are a
+// share of.
+TEST(MemberNumbers, HaveLogarithmsThatMoveByTheShareOfEachMembersNumber) {
+  MemberNumbers friction{{0.05, 0.2}, 0.1, {"a", {0.01, -0.01, 0.01, -0.02, 0.01, -0.02}}, 2};
+  const MemberNumbers logs = logarithms(friction);
+  EXPECT_EQ(logs.at, (std::vector{std::log(0.05), std::log(0.2)}));
+  EXPECT_EQ(logs.own, std::log(0.1));
+  EXPECT_EQ(logs.sampling.skins, "a");
+  const std::vector<double> expected{0.1, -0.1, 0.2, -0.4, 0.05, -0.1};
+  ASSERT_EQ(logs.sampling.deviations.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(logs.sampling.deviations[i], expected[i], 1e-12) << i;
 }
 
 TEST(Evidence, GivesTheWeightsOfTheDensityOfAllReadingsTogether) {

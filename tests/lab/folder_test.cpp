@@ -3,8 +3,10 @@
 
 #include <cmath>
 
+#include "base/text.h"
 #include "calibrate/friction_table.h"
 #include "report/lab_folder.h"
+#include "report/lab_words.h"
 #include "tests/cli/program.h"
 #include "tests/lab/small_lab.h"
 #include "tests/lab/tribometer.h"
@@ -44,11 +46,13 @@ class LabFolder : public testing::Test {
     write_text(own_.path() / name, text);
     return (own_.path() / name).string();
   }
-  TellReport tell(const std::vector<std::string>& files, bool replace = false) const {
+  TellReport tell(const std::vector<std::string>& files, bool replace = false,
+                  const std::string& date = "2026-03-02", const std::string& design = "") const {
     TellRun run;
     run.folder = folder_;
     run.files = files;
-    run.options.date = "2026-03-02";
+    run.options.date = date;
+    run.options.design = design;
     run.options.replace = replace;
     return tell_lab(run);
   }
@@ -187,6 +191,105 @@ TEST_F(LabFolder, RefusesAContradictionUnlessItReplaces) {
   EXPECT_DOUBLE_EQ(now[0].off, 0.066);
 }
 
+// A plan leaves its days empty: what was told yesterday is not another day's today.
+TEST_F(LabFolder, CountsAReadingOfNoSaidDayOnceOnTheNextDay) {
+  const std::string head = "design,repeat,load_N,humidity_percent,voltage_V,F_off_N,F_on_N\n",
+                    first = "deep,1,0.2,35,200,0.06,0.09\n", today = "2026-03-02",
+                    tomorrow = "2026-03-03";
+  const std::string half = file("half.csv", head + first + "deep,2,0.2,35,200,,\n");
+  tell({half}, false, today);
+  TellReport told = tell({half}, false, tomorrow);
+  EXPECT_NE(told.markdown.find("1 reading told already, in half.csv of 2026-03-02"),
+            std::string::npos)
+      << told.markdown;
+  tell({file("half.csv", head + first + "deep,2,0.2,35,200,0.061,0.091\n")}, false, tomorrow);
+  tell({file("dated.csv", std::string(kHead) + "deep,1,0.2,35,200,2026-03-02,0.06,0.09\n")});
+  const auto days = [&] {
+    std::vector<std::string> out;
+    for (const FrictionReading& r : Lab(folder_, 1).readings()) out.push_back(r.day);
+    return out;
+  };
+  EXPECT_EQ(days(), (std::vector{today, tomorrow}));
+  {
+    Lab lab(folder_, 1);
+    TellOptions options;
+    options.date = options.day = "2026-03-04";
+    const std::string grown = head + first + "deep,2,0.2,35,200,0.061,0.091\n";
+    EXPECT_EQ(lab.tell(file("grown.csv", grown + "deep,3,0.2,35,200,,\n"), options, {}).already, 2);
+    const Told again =
+        lab.tell(file("grown.csv", grown + "deep,3,0.2,35,200,0.062,0.09\n"), options, {});
+    EXPECT_EQ(again.already, 2);
+    EXPECT_EQ(again.record.readings.front().day, "2026-03-04");
+  }
+  EXPECT_EQ(days(), (std::vector<std::string>{today, tomorrow, "2026-03-04"}));
+  // Of another value nobody knows whether it is a correction or of today.
+  const std::string other = file("other.csv", head + "deep,1,0.2,35,200,0.066,0.1\n");
+  told = tell({other}, false, tomorrow);
+  EXPECT_NE(words(told).find("say of which day it is, or --replace"), std::string::npos)
+      << words(told);
+  tell({other}, true, tomorrow);
+  EXPECT_EQ(days(), (std::vector<std::string>{tomorrow, "2026-03-04", today}));
+  tell({file("dated.csv", std::string(kHead) + "deep,1,0.2,35,200,2026-03-03,0.07,0.1\n")});
+  EXPECT_EQ(days(), (std::vector<std::string>{tomorrow, "2026-03-04", today, tomorrow}));
+  told = tell({file("third.csv", head + "deep,1,0.2,35,200,0.08,0.1\n")}, true, tomorrow);
+  EXPECT_NE(words(told).find("day: not said, and repeat 1 of this experiment was told of "
+                             "2026-03-02 and of 2026-03-03"),
+            std::string::npos)
+      << words(told);
+}
+
+TEST_F(LabFolder, GoesBackToAnEarlierValue) {
+  const std::string first = file("a.csv", std::string(kHead) + "deep,1,0.2,35,200,1,0.06,0.09\n"),
+                    second = file("b.csv", std::string(kHead) + "deep,1,0.2,35,200,1,0.066,0.1\n");
+  tell({first});
+  tell({second}, true);
+  tell({first});  // the same file as before: nothing is new
+  EXPECT_EQ(Lab(folder_, 1).readings().front().off, 0.066);
+  tell({first}, true);
+  const std::vector<FrictionReading> now = Lab(folder_, 1).readings();
+  ASSERT_EQ(now.size(), 1u);
+  EXPECT_EQ(now[0].off, 0.06);
+}
+
+TEST_F(LabFolder, TakesBackWhatARecordWasToldAs) {
+  Tribometer t;
+  t.off = 0.06;
+  t.on = 0.09;
+  t.strokes = 6;
+  const std::string record = file("run.csv", t.record());
+  tell({record}, false, "2026-03-02", "deep");
+  tell({record}, false, "2026-03-03", "shallow");
+  EXPECT_EQ(Lab(folder_, 1).readings().front().experiment.design, 0u);
+  const TellReport told = tell({record}, true, "2026-03-03", "shallow");
+  EXPECT_NE(told.markdown.find("no longer counted: 1 reading that this file was told as before"),
+            std::string::npos)
+      << told.markdown << words(told);
+  const std::vector<FrictionReading> now = Lab(folder_, 1).readings();
+  ASSERT_EQ(now.size(), 1u);
+  EXPECT_EQ(now[0].experiment.design, 1u);
+  EXPECT_EQ(now[0].day, "2026-03-02");
+  tell({record}, true, "2026-03-04", "shallow");
+  EXPECT_EQ(readings(), 1u);
+}
+
+TEST_F(LabFolder, NumbersTheTouchesOfAPlanAfterThoseBefore) {
+  const auto repeats = [&] {
+    const Lab lab(folder_, 1);
+    PlanRecord plan;
+    plan.experiments = {lab.planned().front()};
+    plan.experiments.front().id = "E99";
+    plan.experiments.front().repeats = 2;
+    std::vector<std::string> out;
+    for (const std::string& line : split(lab_plan_csv(lab, plan), '\n'))
+      if (line.starts_with("E99")) out.push_back(split(line, ',')[3]);
+    return out;
+  };
+  const int planned = Lab(folder_, 1).planned().front().repeats;
+  EXPECT_EQ(repeats(), (std::vector{std::to_string(planned + 1), std::to_string(planned + 2)}));
+  tell({file("a.csv", "experiment,repeat,F_off_N\nE01,9,0.06\n")});
+  EXPECT_EQ(repeats(), (std::vector<std::string>{"10", "11"}));
+}
+
 TEST_F(LabFolder, TakesARecordAsAReadingWithAPicture) {
   Tribometer t;
   t.off = 0.06;
@@ -270,6 +373,28 @@ TEST_F(LabFolder, OpensAnewALabWhoseFirstPlanFailed) {
   EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("is a lab already"), std::string::npos);
 }
 
+// The state of the finger is a condition of the table that the calibration fits, as load and
+// humidity are.
+TEST_F(LabFolder, PlansInTheStatesOfTheTableThatItsCalibrationFits) {
+  file("measured.csv",
+       "design,load_N,humidity_percent,voltage_V,frequency_Hz,state,F_off_N,F_off_sd_N,F_on_N,"
+       "F_on_sd_N\ndeep.toml,0.2,35,0,0,natural,0.06,0.003,,\n"
+       "deep.toml,0.2,75,0,0,wet,0.05,0.003,,\n");
+  fs::copy(place_->path() / "deep.toml", own_.path() / "deep.toml");
+  NextRun run;
+  run.source.paths = {file("fit.toml",
+                           "schema_version = 1\nfinger = \"fingers/reference.toml\"\n"
+                           "data = \"measured.csv\"\n[parameters]\n\"skin.layer_modulus\" = "
+                           "{ low = \"10 MPa\", high = \"500 MPa\", prior = \"66 MPa\", factor = "
+                           "2.0 }\n")};
+  run.source.belief = (place_->path() / "belief.toml").string();
+  run.folder = (own_.path() / "new").string();
+  run.options.aim = Aim::Decision;  // refused: the plan is not what is looked at here
+  EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("nothing is decided"), std::string::npos);
+  EXPECT_EQ(read_lab_file(run.folder).conditions.states,
+            (std::vector<std::string>{"natural", "wet"}));
+}
+
 // What a lab was opened with is in its files: said again it would change nothing.
 TEST_F(LabFolder, RefusesConditionsOfALabThatGoesOn) {
   NextRun run;
@@ -319,6 +444,40 @@ TEST_F(LabFolder, SaysWhatIsWrongInLabToml) {
   write_text(folder_ + "/lab.toml", text);
   EXPECT_NE(refusal_of([&] { const Lab lab(folder_, 1); }).find("repeatability"),
             std::string::npos);
+}
+
+// A lab.toml by which a design can be chosen that the run says nothing of.
+TEST_F(LabFolder, RefusesAChoiceThatItsRunDoesNotKnow) {
+  const RunWorth run{"worst(modulation)",
+                     {"deep"},
+                     {std::vector<double>(6, 0.3)},
+                     {std::vector<bool>(6, true)},
+                     {{}}};
+  LabFile lab_file = read_lab_file(folder_);
+  lab_file.worth_file = "worth.json";
+  write_text(folder_ + "/worth.json", run_worth_text(run));
+  write_text(folder_ + "/lab.toml", lab_file_text(lab_file));
+  EXPECT_NE(refusal_of([&] {
+              Lab(folder_, 1).standing();
+            }).find("\"shallow\" is decided among, but worth.json does not say"),
+            std::string::npos);
+}
+
+TEST_F(LabFolder, SaysThatNothingFitsIntoItsTime) {
+  LabFile lab_file = read_lab_file(folder_);
+  lab_file.stop = 0;  // no regret is too small to go on
+  write_text(folder_ + "/lab.toml", lab_file_text(lab_file));
+  NextRun run;
+  run.source.paths = {folder_};
+  run.options.date = "2026-03-02";
+  run.options.seconds = 45 * 60;  // a touch with all that it needs takes an hour
+  const NextReport next = next_in_lab(run);
+  EXPECT_NE(next.markdown.find("Nothing fits into the time that was given: the shortest experiment "
+                               "that tells anything takes 1 h 0 min."),
+            std::string::npos)
+      << next.markdown;
+  EXPECT_NE(next.json.find("\"ended\": \"time\""), std::string::npos);
+  EXPECT_FALSE(next.stop);
 }
 
 }  // namespace

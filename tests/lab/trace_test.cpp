@@ -126,6 +126,29 @@ TEST(Record, FindsTheOnsetWhereTheForceHasTurnedRound) {
   }
 }
 
+// The force itself never turns; the position does, whichever way it counts.
+TEST(Record, GivesFrictionBelowTheZeroOfItsSensor) {
+  Tribometer t;
+  t.off = 0.08;
+  t.on = 0.11;
+  t.zero = 0.16;
+  for (const int sense : {1, -1}) {
+    Trace trace = read_trace(t.record(), "record.csv");
+    for (double& x : trace.position) x *= sense;
+    const Sliding sliding = find_sliding(trace);
+    ASSERT_EQ(static_cast<int>(sliding.strokes.size()), t.strokes);
+    for (std::size_t k = 0; k < sliding.strokes.size(); ++k) {
+      const Stroke& s = sliding.strokes[k];
+      EXPECT_EQ(s.direction, k % 2 == 0 ? 1 : -1);
+      EXPECT_GT(s.steady.size(), s.all.size() * 7 / 10);
+    }
+    const TraceReading r = read_friction_of(trace, sliding, "record.csv");
+    EXPECT_NEAR(r.off, t.off, 0.01 * t.off);
+    EXPECT_NEAR(r.on, t.on, 0.01 * t.on);
+    EXPECT_FALSE(says(r.notes, "is taken as it is"));
+  }
+}
+
 TEST(Record, SaysWhatItLeftOutAndAssumed) {
   Tribometer t;
   std::string text = t.record();

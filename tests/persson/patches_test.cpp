@@ -86,6 +86,24 @@ TEST(PatchPressures, FollowAChangeOfTheNominalPressure) {
   }
 }
 
+// Fine roughness under a hard tip: the parts of the area press by many times sqrt(M) apart.
+TEST(PatchPressures, OfPartsFarApartStayNumbers) {
+  for (const double x : {20.0, 40.0, 85.0, 150.0}) {
+    for (const int nodes : {1, 2, 4}) {
+      const PatchPressures patches(square(2e6), {{x * 1e6, 0.3}, {x * 2e6, 0.4}, {x * 3e6, 0.3}},
+                                   nodes);
+      const std::vector<double> same = patches.share_at({x * 1e6, x * 2e6, x * 3e6});
+      const std::vector<double> more = patches.share_at({x * 1.01e6, x * 2.02e6, x * 3.03e6});
+      double load = 0;
+      for (std::size_t k = 0; k < same.size(); ++k) {
+        EXPECT_NEAR(same[k], patches.share()[k], 1e-6) << x << " " << nodes;
+        load += more[k] * patches.pressure()[k];
+      }
+      EXPECT_NEAR(load, x * 2.02e6, 1e-9 * x * 1e6) << x << " " << nodes;
+    }
+  }
+}
+
 TEST(PatchPressures, FarGapsAndPatchesTogetherPullLikeTheFullTheory) {
   for (const TableRow& row : read_table("t51_patch_electro.csv", true)) {
     const auto& v = row.values;

@@ -49,6 +49,19 @@ TEST(Conditions, WhatNoCriterionFeelsIsNone) {
   EXPECT_FALSE(condition_differences({{a}, {b}}, by("friction:low,modulation:high")).empty());
 }
 
+// The state is no condition, but without one asked for all have to be in the same.
+TEST(Conditions, TheStateOfAllIsTheOneThatTheyShare) {
+  Design clean, natural;
+  clean.finger.state = FingerState::Clean;
+  natural.finger.state = FingerState::Natural;
+  EXPECT_EQ(common_state({{natural}, {natural, natural}}), FingerState::Natural);
+  EXPECT_EQ(refusal_of([&] {
+              common_state({{natural}, {natural, clean}});
+            }),
+            "the designs' fingers are in different states (finger.state), natural, clean: say in "
+            "which of them, or in which ones, all are judged");
+}
+
 TEST(Conditions, LongValuesAreCutAndShortOnesAreNot) {
   const std::string longest(48, 'x');
   EXPECT_EQ((ConditionDifference{"k", "a", longest, longest + "y", "b"}.text()),

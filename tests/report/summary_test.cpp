@@ -428,6 +428,24 @@ TEST(BuildSheet, SaysWhatRoundingBreaks) {
   EXPECT_EQ(as_read(sheet_text(run.files())).find("**broken**"), std::string::npos);
 }
 
+// What the limits are kept with stands in the lead where it is less than the study wants.
+TEST(BuildSheet, TheLeadSaysThatBeliefBreaksLimits) {
+  Searched run;
+  search::Prospect prospect;
+  prospect.p_best = 1;
+  prospect.p_limit = {1, 1, 1, 0.28};
+  prospect.p_limits = 0.28;
+  run.result.decision.absent = "";
+  run.result.decision.designs = {prospect};
+  EXPECT_NE(as_read(recommendation(run.files()))
+                .find(" By what is believed of finger and model it keeps every limit with "
+                      "probability 28 % only; the study wants 90 % (risk.limits)."),
+            std::string::npos)
+      << as_read(recommendation(run.files()));
+  run.result.decision.designs[0].p_limits = 0.9;
+  EXPECT_EQ(as_read(recommendation(run.files())).find("believed of finger"), std::string::npos);
+}
+
 TEST(BuildSheet, ForProgramsIsInTheUnitsOfTheStudy) {
   Searched run;
   run.result.at_bound = {{0, true, 5e-6, false, 0, {}}};

@@ -67,6 +67,24 @@ TEST(MeasuredTable, RefusesWrongUnitsWithTheWayOut) {
                    "is it `F_off_N`?"));
 }
 
+// Touches scatter by percent, whatever each states of itself.
+TEST(MeasuredTable, TakesForExchangedOnlyWhatScatterCannotExplain) {
+  const std::string head = "design,load_N,humidity_percent,voltage_V,F_off_N,F_off_sd_N,F_on_N\n",
+                    touch = "flat,0.2,35,20,0.1,0.0005,0.099\n",
+                    less = "flat,0.2,35,200,0.1,0.005,0.08\n";
+  const MeasuredTable t = table(head + touch);
+  ASSERT_EQ(t.notes.size(), 1u);
+  EXPECT_TRUE(says(t.notes[0], "by no more than touches scatter"));
+  // A fifth less is 3.1 deviations of one touch; half of that needs four.
+  EXPECT_TRUE(says(refused(head + less), "exchanged?"));
+  const std::string half = "flat,0.2,35,200,0.1,0.005,0.089\n";
+  EXPECT_EQ(table(head + half).rows.size(), 1u);
+  EXPECT_TRUE(says(refused(head + half + half + half + half), "exchanged?"));
+  // What is stated to scatter more is believed.
+  EXPECT_EQ(table(head + "flat,0.2,35,200,0.1,0.02,0.08\n").rows.size(), 1u);
+  EXPECT_TRUE(table(head + touch + "flat,0.2,35,200,0.1,0.005,0.12\n").notes.empty());
+}
+
 TEST(MeasuredTable, RefusesEveryMistakeAtOnceWithItsLine) {
   const std::string all = refused(
       "design,load_N,humidity_percent,state,F_off_N\n"

@@ -21,6 +21,19 @@ Study one_finger() {
   return study;
 }
 
+// As `papilla evaluate` has them of the same file.
+TEST(LevelNumbers, OfTheConfirmationTakeGridAndPlacementsOfTheStudy) {
+  Study study = one_finger();
+  study.design.accuracy.grid = 512;
+  study.design.accuracy.droplet_seeds = 6;
+  const StudyProblem problem(study);
+  const Fidelity confirm = stage_fidelity(problem, Stage::Confirm);
+  EXPECT_EQ(confirm.grid, 512);
+  EXPECT_EQ(confirm.droplet_seeds, 6);
+  EXPECT_EQ(steps_fidelity(problem, confirm).grid, 64);
+  EXPECT_EQ(stage_fidelity(problem, Stage::Search).droplet_seeds, 1);
+}
+
 TEST(LevelNumbers, OfEachStageAreThoseOfTheTheory) {
   const Study study = one_finger();
   const StudyProblem problem(study);

@@ -102,7 +102,10 @@ TEST(Scores, LimitsTakeTheWorstTaskThatCounts) {
   Study study = weighted_study();
   study.scenarios.push_back({"broken", 0, {}});
   study.constraints = {read_constraint("mean(friction)", 0.05),
-                       {MetricLimit{parse_metric("mean(contact_area)")}, 0.1, true}};
+                       {MetricLimit{parse_metric("mean(contact_area)")}, 0.1, true},
+                       read_constraint("haze", 0.05),
+                       read_constraint("gloss", 70),
+                       read_constraint("most_gloss", 90)};
   const StudyProblem problem(study);
   std::vector<TaskAnswer> answers(3, answer(problem, {0.2, 0.4}));
   const double worst[] = {0.3, 0.2, 0.01}, margin[] = {2, 3, 0.5};
@@ -111,13 +114,19 @@ TEST(Scores, LimitsTakeTheWorstTaskThatCounts) {
     answers[t].worst = worst[t], answers[t].oxide_margin = margin[t];
     answers[t].limited = limited[t];
     answers[t].look = Look{t == 1 ? 0.1 : 0.02, 0.9, 0.5, 0};
+    answers[t].look->gloss = t == 1 ? 60 : 100;
   }
   const Score score = problem.score(problem.study().design, answers);
   EXPECT_EQ(score.worst, 0.2);
   EXPECT_EQ(score.oxide_margin, 2);
   EXPECT_EQ(score.limited, (std::vector<double>{0.06, 0.2}));
-  ASSERT_TRUE(score.look);
-  EXPECT_EQ(score.look->haze, 0.1);
+  // Of the look each limit has a side of its own: the haziest task shines least.
+  const std::vector<LimitValue> values =
+      problem.constraints().values(problem.study().design, score);
+  ASSERT_EQ(values.size(), 5u);
+  EXPECT_EQ(values[2].value, 0.1);
+  EXPECT_EQ(values[3].value, 60);
+  EXPECT_EQ(values[4].value, 100);
 }
 
 // Of a model that is linear in every variable the slopes come back, in SI and with their sign; a

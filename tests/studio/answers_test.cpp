@@ -62,7 +62,7 @@ TEST_F(Answers, TellTheStateOfTheSession) {
   expected["changes"] = Json::parse(R"([["texture.depth", "262 nm"], ["drive.amplitude", "0 V"]])");
   expected["undo"] = true, expected["driven"] = false;
   expected["steps"] = {"depth 262 nm", "amplitude 0 V"}, expected["done"] = 2;
-  expected["pins"] = Json::array({{{"number", 1}, {"name", "mine"}}});
+  expected["pins"] = Json::array({{{"number", 1}, {"name", "mine"}, {"readable", true}}});
   EXPECT_EQ(session(), expected);
   EXPECT_EQ(ask("/undo"), (Json{{"revision", first + 3}}));
   EXPECT_EQ(session()["redo"], true);
@@ -138,6 +138,21 @@ TEST_F(Answers, NameTheKeyThatIsWrong) {
   EXPECT_EQ(page.status, 200);
   EXPECT_EQ(page.type, "text/html; charset=utf-8");
   EXPECT_FALSE(page.whole_page);
+}
+
+// A pinned file that goes while the studio works is said; all else goes on.
+TEST_F(Answers, GoOnWithoutTheFileOfAPin) {
+  ask("/save", {{"name", "old.toml"}});
+  ask("/pin", {{"name", "old"}});
+  ask("/save", {{"name", "new.toml"}});
+  ask("/pin", {{"name", "new"}});
+  std::filesystem::remove(folder_.path() / "old.toml");
+  const Json set = ask("/set", {{"path", "texture.depth"}, {"value", "262 nm"}});
+  EXPECT_EQ(set["revision"], state()["session"]["revision"]);
+  EXPECT_EQ(session()["pins"], Json::array({{{"number", 1}, {"name", "old"}, {"readable", false}},
+                                            {{"number", 2}, {"name", "new"}, {"readable", true}}}));
+  EXPECT_TRUE(ask("/take", {{"pin", 1}}).contains("error"));
+  EXPECT_EQ(ask("/unpin", {{"pin", 1}}), set);
 }
 
 // At the nearest humidity of the design, at draft level.

@@ -182,6 +182,12 @@ def smoke(browser, folder):
         browser.run("const i = document.getElementById('k-texture-period'); i.value = '6,5 µm'; i.dispatchEvent(new Event('change'))")
         until(browser, "papilla.session().keys.find(k => k.path === 'texture.period').value === '6.5 um'", 10, "a decimal comma")
         browser.run("document.getElementById('undo').click()")
+        # In a list a comma parts two numbers.
+        browser.run("const i = document.getElementById('k-environment-relative_humidity'); i.value = '30,50'; i.dispatchEvent(new Event('change'))")
+        until(browser, "papilla.session().keys.find(k => k.path === 'environment.relative_humidity').value === '30 %, 50 %'", 10, "a list of two")
+        until(browser, "document.querySelectorAll('#values tbody tr').length === 2", 30, "two humidities")
+        browser.run("document.getElementById('undo').click()")
+        until(browser, "document.querySelectorAll('#values tbody tr').length === 4", 30, "the four humidities again")
         # The curves as a table, for those who hear the page.
         rows = browser.run("return [...document.querySelectorAll('#values tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
         check(len(rows) == 4 and all(" ± " in cell and cell.endswith("mN") for cell in (row[-1] for row in rows)), f"values over humidity: {rows}")
@@ -210,11 +216,27 @@ def smoke(browser, folder):
         check(browser.run("const line = document.querySelector('.goal'); return line.querySelectorAll('select')[2].value + line.querySelector('input').value") == "felt0.15", "the modulation after a reload")
         browser.run("document.getElementById('proposed').click()")
         until(browser, "document.getElementById('evaluations').value === '' && !document.querySelector('#wishkinds input[value=pillar_array]').checked", 10, "the file's own wish")
+        # A move after a reload is a step of its own.
+        for share, what in [(0.3, "a move"), (0.6, "a move after a reload")]:
+            before = value(browser, "texture.depth")
+            slide(browser, "texture.depth", share)
+            until(browser, f"(k => k.changed && parseFloat(k.value) !== parseFloat('{before}'))(papilla.session().keys.find(k => k.path === 'texture.depth'))", 10, what)
+            go(browser, studio)
+        browser.run("document.getElementById('undo').click()")
+        until(browser, f"document.getElementById('k-texture-depth').value === '{before}'", 10, "the move before the reload")
+        browser.run("document.getElementById('undo').click()")
         # A mistake of the wish is said below it.
         browser.run("document.querySelectorAll('#variables [type=checkbox]').forEach(b => { if (b.checked) b.click(); }); document.getElementById('start').click()")
         until(browser, "/needs a variable/.test(document.getElementById('wishnotice').textContent)", 10, "the mistake at the form")
         browser.run("document.getElementById('inside').open = true")
         until(browser, "document.querySelectorAll('#maps canvas').length >= 4", 60, "maps of the contact")
+        # A humidity that is chosen while a patch is worked out is drawn after it.
+        browser.run("""
+            const humidity = document.getElementById('rh'), send = window.fetch;
+            window.asked = [];
+            window.fetch = (url, what) => { if (url === 'maps') window.asked.push(JSON.parse(what.body).humidity); return send(url, what); };
+            [0, 3].forEach((i) => { humidity.selectedIndex = i; humidity.dispatchEvent(new Event('change')); });""")
+        until(browser, "window.asked.length === 2 && window.asked[1] === +document.getElementById('rh').value && !document.getElementById('maps').classList.contains('stale')", 60, "maps of the humidity that was chosen last")
         browser.picture(PICTURES, "smoke.png")
         looks(browser, studio)
         inside_page(browser)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -376,6 +377,62 @@ TEST(Session, KeepsTheWishOfItsFileAndKind) {
   EXPECT_THROW(again.set_wish(std::string(200000, ' ')), InputError);
   again.forget_wish();
   EXPECT_EQ(again.wish(), "");
+}
+
+TEST(Session, TakesItsWishAlongWhereItIsSaved) {
+  const TemporaryFolder place;
+  const std::string mine = (place.path() / "mine.toml").string();
+  const auto write = [&](const Draft&, const Study&) {
+    write_bytes(mine, "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n");
+  };
+  {
+    Session session(place.path(), kHoles);
+    session.set_wish(R"({"evaluations":37})");
+    session.save_as(mine, write);
+    EXPECT_EQ(session.wish(), R"({"evaluations":37})");
+  }
+  Session again(place.path(), mine);
+  EXPECT_EQ(again.wish(), R"({"evaluations":37})");
+  // One of another file stays where it is.
+  again.become({PAPILLA_DESIGNS_DIR "/m3_samples/flat.toml", {}});
+  again.save_as(mine, write);
+  EXPECT_EQ(again.wish(), R"({"evaluations":37})");
+  again.become({PAPILLA_DESIGNS_DIR "/m3_samples/flat.toml", {}});
+  again.save_as((place.path() / "flat.toml").string(), [&](const Draft&, const Study&) {
+    write_bytes(place.path() / "flat.toml",
+                "schema_version = 1\nbase = \"m3_samples/flat.toml\"\n");
+  });
+  EXPECT_EQ(again.wish(), "");
+}
+
+// The other pins and the work on every file are not lost with it.
+TEST(Session, KeepsAPinWhoseFileIsGone) {
+  const TemporaryFolder place;
+  const std::string old = (place.path() / "old.toml").string(),
+                    text = "schema_version = 1\nbase = \"m3_samples/a3h350.toml\"\n";
+  write_bytes(old, text);
+  {
+    Session session(place.path(), old);
+    session.pin("old");
+    session.become({kHoles, {}});
+    session.set("texture.depth", "262 nm", 0);
+    session.pin("new");
+    session.set_wish(R"({"evaluations":37})");
+  }
+  std::filesystem::remove(old);
+  {
+    Session session(place.path(), kHoles);
+    EXPECT_DOUBLE_EQ(depth(session), 262e-9);
+    EXPECT_TRUE(session.view().can_undo());
+    EXPECT_EQ(session.wish(), R"({"evaluations":37})");
+    ASSERT_EQ(session.view().pins.size(), 2u);
+    EXPECT_THROW(session.take(1), InputError);
+    EXPECT_DOUBLE_EQ(depth(session), 262e-9);
+  }
+  write_bytes(old, text);
+  Session session(place.path(), kHoles);
+  session.take(1);
+  EXPECT_DOUBLE_EQ(depth(session), 350e-9);
 }
 
 TEST(Session, StaysAsItWasWhereItsFileCannotBeSaved) {

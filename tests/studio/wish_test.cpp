@@ -35,7 +35,7 @@ Study reread(const std::string& text) {
 
 SearchWish depth_wish() {
   SearchWish wish;
-  wish.variables = {{"texture.depth", "100 nm", "800 nm"}, {"texture.period", "6 um", "6 um"}};
+  wish.variables = {{"texture.depth", "100 nm", "800 nm"}};
   wish.maximise = {"mean(modulation)"};
   wish.limits = {{"min_hole", "1 um"}, {"aspect_ratio", "1"}};
   wish.evaluations = 12;
@@ -47,7 +47,7 @@ TEST(SearchWish, IsAStudyOfTheDesignAtHand) {
   const Study made = reread(study_text(study, depth_wish()));
   EXPECT_EQ(made.design.texture, study.design.texture);
   EXPECT_EQ(made.design.finger, study.design.finger);
-  ASSERT_EQ(made.variables.size(), 1u);  // the period is pinned
+  ASSERT_EQ(made.variables.size(), 1u);
   EXPECT_EQ(made.variables[0].path, "texture.depth");
   EXPECT_DOUBLE_EQ(made.variables[0].low, 100e-9);
   EXPECT_DOUBLE_EQ(made.variables[0].high, 800e-9);
@@ -133,13 +133,28 @@ TEST(SearchWish, LeavesOutWhatIsExcluded) {
   EXPECT_THROW(study_text(read_study(kHoles), wish), InputError);
 }
 
+// Not at the value that the design at hand happens to have.
+TEST(SearchWish, PinsAVariableAtTheValueThatItIsGiven) {
+  for (const char* high : {"200 nm", "0.2 um"}) {
+    SearchWish wish = depth_wish();
+    wish.variables.push_back({"texture.diameter", "1 um", "3 um"});
+    wish.variables.front() = {"texture.depth", "200 nm", high};
+    const Study made = reread(study_text(read_study(kHoles), wish));  // 600 nm deep
+    ASSERT_EQ(made.variables.size(), 2u);
+    EXPECT_EQ(made.variables[0].path, "texture.depth");
+    ASSERT_EQ(made.variables[0].choices.size(), 1u);
+    EXPECT_NEAR(made.variables[0].choices[0], 200e-9, 1e-18);
+    EXPECT_TRUE(made.variables[1].choices.empty());
+  }
+}
+
 TEST(SearchWish, RefusesWhatIsNoSearch) {
   const Study study = read_study(kHoles);
   SearchWish none = depth_wish();
   none.maximise.clear();
   EXPECT_THROW(study_text(study, none), InputError);
   SearchWish pinned = depth_wish();
-  pinned.variables.erase(pinned.variables.begin());
+  pinned.variables = {{"texture.period", "6 um", "6000 nm"}};
   EXPECT_THROW(study_text(study, pinned), InputError);
   EXPECT_THROW(search_wish(Json{{"maximise", {"x"}}}), InputError);
 }
@@ -209,6 +224,30 @@ TEST(SearchWish, ProposesTheGoalsAndLimitsOfItsStudy) {
   EXPECT_EQ(of_modulation, 2);
 }
 
+// Of a limit on a metric, which no list has, the page knows its side, unit and meaning.
+TEST(SearchWish, TellsWhatALimitOnAMetricIs) {
+  Study study = read_study(kHoles);
+  study.constraints = {read_constraint("worst(voltage_for(modulation = 0.5))", 150),
+                       read_constraint("worst(modulation)", 0.3)};
+  // And of one that the page has kept; what is none is left alone.
+  const Json wish = proposed_wish(study), kept = proposed_wish(study, R"j({"limits":[
+      {"name":"worst(friction)","limit":"0.5 N"},{"name":"nothing","limit":"1"},{"name":3},4]})j");
+  const auto known = [](const Json& of, const std::string& name) {
+    for (const Json& limit : of["known_limits"]) {
+      if (limit["name"] == name) return limit;
+    }
+    return Json();
+  };
+  const std::string voltage = wish["limits"][0]["name"];
+  ASSERT_TRUE(known(wish, voltage).is_object()) << wish["known_limits"];
+  EXPECT_EQ(known(wish, voltage)["at_least"], false);
+  EXPECT_EQ(known(wish, voltage)["unit"], "V");
+  EXPECT_NE(known(wish, voltage)["doc"], "");
+  EXPECT_EQ(known(wish, "worst(modulation)")["at_least"], true);
+  EXPECT_EQ(known(kept, "worst(friction)")["at_least"], false);
+  EXPECT_TRUE(known(kept, "nothing").is_null());
+}
+
 TEST(SearchWish, IsReadAsThePageSendsIt) {
   const Json sent = Json::parse(R"({"variables":[{"path":"a","low":"1 nm","high":"2 nm"},
       {"path":"b","low":"3","high":"4","excluding":"3.2 to 3.4"}],"kinds":["x","y"],
@@ -248,8 +287,7 @@ TEST(SearchWish, IsReadAsThePageSendsIt) {
 TEST(SearchWish, KeepsWhatThePageDoesNotSay) {
   const Study study = reread(study_text(read_study(kHoles), depth_wish()));
   SearchWish wish;
-  wish.variables = {{"surface.contact_angle", "30 deg", "80 deg"},
-                    {"drive.amplitude", "100", "100"}};
+  wish.variables = {{"surface.contact_angle", "30 deg", "80 deg"}};
   wish.minimise = {"mean(modulation)"};
   const Study made = reread(study_text(study, wish));
   EXPECT_TRUE(made.objective.maximise.empty());
@@ -292,8 +330,10 @@ TEST(SearchWish, KeepsChoicesOfTheStudyThatItDoesNotName) {
   const VariableWish depth{"texture.depth", "100 nm", "800 nm"};
   EXPECT_EQ(variables({depth}), study.variables);
   EXPECT_EQ(variables({}), std::vector{study.variables[1]});
-  EXPECT_EQ(variables({depth, {"surface.contact_angle", "50 deg", "50 deg"}}),
-            std::vector{study.variables[0]});
+  const std::vector<Variable> pinned =
+      variables({depth, {"surface.contact_angle", "50 deg", "50 deg"}});
+  ASSERT_EQ(pinned.size(), 2u);
+  EXPECT_EQ(pinned[1].choices.size(), 1u);
   const std::vector<Variable> ranges =
       variables({depth, {"surface.contact_angle", "40 deg", "60 deg"}});
   ASSERT_EQ(ranges.size(), 2u);

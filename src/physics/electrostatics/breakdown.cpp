@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
+
+#include "base/check.h"
 
 namespace papilla::electrostatics {
 
@@ -21,20 +24,25 @@ double corner_factor(double thickness, double edge_radius) {
   return x / std::log1p(x);
 }
 
-double dielectric_margin(std::span<const Dielectric> layers, double v_peak, double edge_radius) {
+double dielectric_margin(std::span<const Dielectric> layers, double v_peak, double edge_radius,
+                         std::span<const std::complex<double>> divider) {
+  PAPILLA_CHECK(divider.empty() || divider.size() == layers.size(), "a share for each layer");
   if (v_peak <= 0) return std::numeric_limits<double>::infinity();
-  double thickness = 0, equivalent = 0;
-  for (const Dielectric& layer : layers) {
-    thickness += layer.thickness;
-    equivalent += layer.equivalent_thickness();
+  const auto counts = [&](std::size_t k) { return divider.empty() ? 1.0 : divider[k]; };
+  double thickness = 0;
+  std::complex<double> series = 0;
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    thickness += layers[k].thickness;
+    series += counts(k) * layers[k].equivalent_thickness();
   }
-  const double corner = corner_factor(thickness, edge_radius);
+  const double corner = corner_factor(thickness, edge_radius), equivalent = std::abs(series);
   if (equivalent <= 0 || std::isinf(corner)) return 0;
   double margin = std::numeric_limits<double>::infinity();
-  for (const Dielectric& layer : layers) {
-    if (layer.thickness <= 0) continue;
-    const double field = v_peak * corner / (layer.permittivity * equivalent);
-    margin = std::min(margin, layer.strength / field);
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    if (layers[k].thickness <= 0) continue;
+    const double field =
+        v_peak * corner * std::abs(counts(k)) / (layers[k].permittivity * equivalent);
+    margin = std::min(margin, layers[k].strength / field);
   }
   return margin;
 }

@@ -1,6 +1,7 @@
 // What limits the voltage: breakdown of air and of the dielectric.
 #pragma once
 
+#include <complex>
 #include <span>
 
 #include "base/constants.h"
@@ -55,7 +56,9 @@ double corner_factor(double thickness, double edge_radius);
 // Smallest ratio of strength to field over the layers of a dielectric that carries the whole peak
 // voltage [V] (under a bridge or a contact), edges of radius edge_radius [m] included; infinite
 // without voltage, 0 without a dielectric under voltage. 1 breaks down; designs ask for 2 or more.
-// Eq. electrostatics.9
-double dielectric_margin(std::span<const Dielectric> layers, double v_peak, double edge_radius);
+// divider: by what the d/eps of each layer counts in the series, where layers leak or relax; empty:
+// all by 1. Eq. electrostatics.9, drive.4
+double dielectric_margin(std::span<const Dielectric> layers, double v_peak, double edge_radius,
+                         std::span<const std::complex<double>> divider = {});
 
 }  // namespace papilla::electrostatics

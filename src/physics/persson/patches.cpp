@@ -86,27 +86,31 @@ std::vector<double> PatchPressures::share_at(double p) const {
 
 std::vector<double> PatchPressures::share_at(const std::vector<double>& p) const {
   PAPILLA_CHECK(p.size() == parts_.size(), "one pressure for each part");
-  // Ratio of densities up to a factor that the load fixes: exponents from the largest one, so that
-  // none overflows.
+  // Ratio of densities up to a factor that the load fixes: exponents from the largest ones, so that
+  // none overflows and each node has a part that counts.
   const auto exponent = [&](double s, double pressure) { return -square(s - pressure) / measure_; };
   double most = -kInfinity, load = 0, carried = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     PAPILLA_CHECK(p[i] > 0, "patches need a load");
     load += parts_[i].share * p[i];
-    for (const double s : pressure_) {
-      most = std::max(most, exponent(s, p[i]) - exponent(s, parts_[i].pressure));
-    }
   }
-  std::vector<double> share = share_;
+  std::vector<double> share = share_, top(share.size(), -kInfinity);
+  for (std::size_t k = 0; k < share.size(); ++k) {
+    double now = -kInfinity;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      top[k] = std::max(top[k], exponent(pressure_[k], parts_[i].pressure));
+      now = std::max(now, exponent(pressure_[k], p[i]));
+    }
+    most = std::max(most, now - top[k]);
+  }
   for (std::size_t k = 0; k < share.size(); ++k) {
     const double s = pressure_[k];
     double now = 0, before = 0;
-    const double top = exponent(s, parts_.front().pressure);
     for (std::size_t i = 0; i < p.size(); ++i) {
       const NominalPressure& part = parts_[i];
-      now -= part.share * std::exp(exponent(s, p[i]) - top - most) *
+      now -= part.share * std::exp(exponent(s, p[i]) - top[k] - most) *
              std::expm1(-4 * s * p[i] / measure_);
-      before -= part.share * std::exp(exponent(s, part.pressure) - top) *
+      before -= part.share * std::exp(exponent(s, part.pressure) - top[k]) *
                 std::expm1(-4 * s * part.pressure / measure_);
     }
     share[k] *= now / before;

@@ -120,7 +120,8 @@ function showPins() {
     top.append(swatch, name, tools);
     const found = state.answer ? state.answer.comparisons.filter((c) => c.pin === pin.number && words[c.metric]) : [];
     const told = found.map(sentence).filter(Boolean), open = found.filter((c) => !sentence(c)).map((c) => words[c.metric][0]);
-    if (!found.length) line.textContent = 'compared as soon as both are known at one level';
+    if (!pin.readable) line.textContent = 'its file cannot be read any more';
+    else if (!found.length) line.textContent = 'compared as soon as both are known at one level';
     else line.append('this design: ');
     told.forEach((span, k) => line.append(...(k ? [' · '] : []), span));
     if (open.length) line.append(`${told.length ? ' · ' : ''}${open.join(', ')} not told apart`);

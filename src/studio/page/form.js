@@ -10,11 +10,13 @@ const sections = { texture: 'Texture', surface: 'Surface', drive: 'Drive', finge
 export const called = (path) => path.split('.').slice(1).map((p) => /^\d+$/.test(p) ? String(+p + 1) : p.replace(/_/g, ' ')).join(' ');
 // As people write it: their letters, and no more than five digits of what a search found.
 export const people = (text) => text.replace(/\d+\.\d{3,}/g, (n) => round(+n, 5)).replace(/(-?\d[\d.e+-]*) rad\b/g, (all, n) => `${round(180 / Math.PI * n, 5)} deg`).replace(/\bum\b/g, 'µm').replace(/\bdeg\b/g, '°').replace(/um(\d)/g, 'µm$1');
-// A comma between digits of a single number is a decimal one.
-export const machine = (text) => text.replace(/µm|μm/g, 'um').replace(/°/g, 'deg').replace(/^(\s*-?\d+),(\d+)(?=\s*[a-zA-Z%]*\s*$)/, '$1.$2').trim();
+const plain = (text) => text.replace(/µm|μm/g, 'um').replace(/°/g, 'deg').trim();
+// A comma between digits of a single number is a decimal one; in a list it parts two.
+export const machine = (text) => plain(text).replace(/^(-?\d+),(\d+)(?=\s*[a-zA-Z%]*$)/, '$1.$2');
 
 const rows = {};
-let gesture = 1, shape = '', atHand = 0;  // revision of the session that is shown
+// Gestures are numbered on after a reload: one number is one step of undo. atHand: revision of the session that is shown.
+let gesture = Date.now(), shape = '', atHand = 0;
 
 // ---- sending: the newest position counts, the next goes out when the one before is answered ----
 const wait = { busy: false, next: null, timer: 0, revision: Infinity };
@@ -108,7 +110,7 @@ function input(k, row) {
   text.autocomplete = 'off';
   text.spellcheck = false;
   text.readOnly = k.type === 'path';
-  text.addEventListener('change', () => { ++gesture; send(k.path, machine(text.value), performance.now()); });
+  text.addEventListener('change', () => { ++gesture; send(k.path, (k.type === 'numbers' ? plain : machine)(text.value), performance.now()); });
   text.addEventListener('keydown', (e) => { if (e.key === 'Escape') { text.value = people(row.key.value); text.blur(); } });
   return text;
 }

@@ -9,12 +9,12 @@ import { people, unanswered } from './form.js';
 import { post } from './server.js';
 import { takeableMap } from './take.js';
 
-const state = { revision: 0, shown: -1, timer: 0, busy: false };
+const state = { revision: 0, shown: { revision: -1, humidity: '' }, timer: 0, busy: false };
 
 export function startScene() {
   startSolid();
   $('inside').addEventListener('toggle', fetchMaps);
-  $('rh').addEventListener('change', () => { state.shown = -1; fetchMaps(); });
+  $('rh').addEventListener('change', fetchMaps);
 }
 
 // Curves come first: the picture of a texture that moves waits until no answer is waited for, though not for long; where
@@ -73,29 +73,40 @@ export function showDimensions(session) {
     if (humidities.length > 1) select.selectedIndex = Math.floor(humidities.length / 2);
   }
   state.revision = session.revision;
+  fetchWhenStill();
+}
+
+// The maps may be of an earlier design, or of another humidity than is chosen.
+const mapsAtHand = () => state.shown.revision >= state.revision && state.shown.humidity === $('rh').value;
+const markMaps = () => $('maps').classList.toggle('stale', !mapsAtHand());
+function fetchWhenStill() {
+  markMaps();
   clearTimeout(state.timer);
   state.timer = setTimeout(fetchMaps, 700);
 }
-
 // One patch with its fields, when the hand rests and somebody looks.
 async function fetchMaps() {
-  if (!$('inside').open || state.busy || state.shown === state.revision) return;
+  markMaps();
+  if (!$('inside').open || state.busy || mapsAtHand()) return;
+  const revision = state.revision, humidity = $('rh').value;
   state.busy = true;
-  $('maps').classList.add('stale');
   try {
-    const { maps, revision } = await post('maps', { humidity: +$('rh').value });
-    mapFigures($('maps'), maps);
+    const answer = await post('maps', { humidity: +humidity });
+    mapFigures($('maps'), answer.maps);
     $('maps').querySelectorAll('canvas').forEach((c) => {
       c.setAttribute('role', 'img');
       c.setAttribute('aria-label', c.nextSibling.textContent);
       takeableMap(c, c.nextSibling.textContent.replace(/ *[[,].*/, ''));
     });
-    state.shown = revision;
+    state.shown = { revision: answer.revision, humidity };
   } catch (error) {
     $('maps').textContent = error.message;
+    state.shown.revision = -1;
   }
-  $('maps').classList.remove('stale');
   state.busy = false;
+  const moved = revision !== state.revision || humidity !== $('rh').value;  // meanwhile
+  if (moved && !mapsAtHand()) fetchWhenStill();
+  else $('maps').classList.remove('stale');
 }
 
 export function showLook(look) {

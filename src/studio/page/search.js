@@ -102,7 +102,7 @@ function goal(direction, expression) {
 function limit({ name, limit: value }) {
   const line = make('div', { className: 'wishline limit' }), known = state.wish.known_limits, word = make('span'), text = make('input', { type: 'text', value: people(value), size: 9 });
   const choice = select(known.map((k) => k.name), name, 'limit on');
-  const say = () => { const k = known.find((x) => x.name === choice.value); word.textContent = k && !k.at_least ? 'at most' : 'at least'; text.placeholder = k ? people(k.unit) : ''; };
+  const say = () => { const k = known.find((x) => x.name === choice.value); word.textContent = !k ? '' : k.at_least ? 'at least' : 'at most'; text.placeholder = k ? people(k.unit) : ''; };
   choice.addEventListener('change', say);
   text.setAttribute('aria-label', 'limit');
   say();

@@ -1,0 +1,105 @@
+// What a lab is opened with: which designs are decided among, which are only measured.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "report/lab_source.h"
+#include "tests/cli/program.h"
+#include "tests/lab/small_lab.h"
+#include "tests/support/refusal.h"
+
+namespace papilla::tests::source_test {
+namespace {
+
+class LabSources : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_small_lab(own_.path());
+    write_third("third.toml");
+    write_third("wafer/designs/third.toml");
+    copy("deep.toml", "wafer/designs/deep.toml");
+    write_text(own_.path() / "wafer/manifest.csv",
+               "field,design,load_N,humidity_percent,voltage_V,state\n"
+               "A1,designs/third.toml,0.2,35,200,clean\n"
+               "A2,designs/deep.toml,0.2,35,200,clean\n");
+    write_run("run");
+  }
+
+  std::string path(const std::string& name) const { return (own_.path() / name).string(); }
+  void copy(const std::string& from, const std::string& to) const {
+    write_text(own_.path() / to, file_text(path(from)));
+  }
+  void write_third(const std::string& name) const {
+    std::filesystem::create_directories((own_.path() / name).parent_path());
+    write_design(path(name), read_design(path("deep.toml"), {"texture.depth=400 nm"}));
+  }
+  // Its front: deep and shallow.
+  void write_run(const std::string& name) const {
+    nlohmann::ordered_json run;
+    nlohmann::ordered_json& decision = run["decision"];
+    decision["worth"] = "worst(modulation)";
+    for (const auto& [front, design] :
+         {std::pair("front/01", "deep.toml"), std::pair("front/02", "shallow.toml")}) {
+      decision["designs"][front]["worth_at_members"] = std::vector<double>(6, 0.3);
+      decision["designs"][front]["limits_kept_at_members"] = std::vector<bool>(6, true);
+      copy(design, name + "/" + front + "/design.toml");
+    }
+    write_text(own_.path() / name / "run.json", run.dump());
+  }
+
+  LabOpening opened(const std::vector<std::string>& names) const {
+    LabSource source;
+    for (const std::string& name : names) source.paths.push_back(path(name));
+    source.belief = path("belief.toml");
+    return lab_opening(source);
+  }
+  static std::vector<std::string> choices(const LabOpening& opened) {
+    std::vector<std::string> out;
+    for (const DesignEntry& d : opened.opening.file.designs) {
+      if (d.choice) out.push_back(d.name);
+    }
+    return out;
+  }
+
+  TemporaryFolder own_;
+};
+
+TEST_F(LabSources, DecideAmongTheDesignsOfTheRunWhereverItIsNamed) {
+  const std::vector<std::string> front{"front/01", "front/02"};
+  for (const std::vector<std::string>& names : {std::vector<std::string>{"run"},
+                                                {"run", "third.toml"},
+                                                {"third.toml", "run"},
+                                                {"run", "wafer"},
+                                                {"wafer", "run"}}) {
+    const LabOpening lab = opened(names);
+    EXPECT_EQ(choices(lab), front) << names.front();
+    EXPECT_EQ(lab.opening.worth->designs, front) << names.front();
+    const bool told = std::any_of(lab.notes.begin(), lab.notes.end(), [](const std::string& n) {
+      return n.starts_with("measured, not chosen") && n.ends_with(": third");
+    });
+    EXPECT_EQ(told, names.size() > 1) << names.front();
+  }
+  // A field of the design that the run has is one of it.
+  EXPECT_EQ(opened({"wafer", "run"}).opening.file.fields.back().design, "front/01");
+}
+
+TEST_F(LabSources, AreRefusedWithASecondRun) {
+  write_run("other");
+  EXPECT_NE(refusal_of([&] {
+              opened({"run", "other"});
+            }).find("other: a second run"),
+            std::string::npos);
+}
+
+// "front/01" of the run and front_01.toml would be one file of the lab.
+TEST_F(LabSources, KeepEachDesignInAFileOfItsOwn) {
+  copy("third.toml", "front_01.toml");
+  const LabFile file = opened({"run", "front_01.toml"}).opening.file;
+  ASSERT_EQ(file.designs.size(), 3u);
+  EXPECT_EQ(file.designs[0].file, "designs/front_01.toml");
+  EXPECT_EQ(file.designs[2].file, "designs/front_01-2.toml");
+}
+
+}  // namespace
+}  // namespace papilla::tests::source_test
