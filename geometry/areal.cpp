@@ -37,15 +37,17 @@ void heights(const Heightmap& h, ArealParameters& out) {
 void slopes(const Heightmap& h, ArealParameters& out) {
   const Grid& g = h.grid;
   double sum = 0, area = 0, steepest = 0, n = 0;
-  for (int iy = 0; iy + 1 < g.ny; ++iy) {
-    for (int ix = 0; ix + 1 < g.nx; ++ix) {
-      const double step_x = h(ix + 1, iy) - h(ix, iy), step_y = h(ix, iy + 1) - h(ix, iy);
+  // A single row or column has slopes along it alone.
+  const int rows = std::max(g.ny - 1, 1), columns = std::max(g.nx - 1, 1);
+  for (int iy = 0; iy < rows; ++iy) {
+    for (int ix = 0; ix < columns; ++ix) {
+      const double step_x = g.nx > 1 ? h(ix + 1, iy) - h(ix, iy) : 0,
+                   step_y = g.ny > 1 ? h(ix, iy + 1) - h(ix, iy) : 0;
       const double slope = square(step_x / g.dx()) + square(step_y / g.dy());
       sum += slope, area += std::sqrt(1 + slope) - 1, n += 1;
       steepest = std::max({steepest, std::abs(step_x), std::abs(step_y)});
     }
   }
-  if (n == 0) return;
   out.sdq = std::sqrt(sum / n);
   out.sdr = area / n;
   out.sampling_limited = out.sz > 0 && steepest > 0.25 * out.sz;

@@ -154,4 +154,13 @@ void add_wall_problem(const WallSection& wall, double width, TextureProblems& ou
                                wall.wall_angle * 180 / kPi, 1e9 * wall.depth));
 }
 
+void add_rim_problem(const WallSection& wall, double land, TextureProblems& out) {
+  const double share = 2 * std::tan(0.5 * wall.wall_angle);  // of the land, over the radius
+  if (wall.depth <= 0 || land <= 0 || wall.edge_radius * share < land) return;
+  out.emplace_back("edge_radius",
+                   fmt::format("rims of {:.4g} nm leave nothing of the land of {:.4g} um between "
+                               "two edges; less than {:.4g} nm",
+                               1e9 * wall.edge_radius, 1e6 * land, 1e9 * land / share));
+}
+
 }  // namespace papilla::geometry

@@ -29,8 +29,10 @@ Heightmap round_features(const FeatureArray& array, const WallSection& wall, con
 double feature_share(const FeatureArray& array);  // of the area, inside the features
 TextureFacts array_facts(FeatureArray array, const WallSection& wall);
 
-// Features that overlap, and walls that meet before the depth is reached.
+// Features that overlap, walls that meet before the depth is reached, and rims that leave nothing
+// of the narrowest land between two edges.
 TextureProblems array_problems(double period, double width, const char* width_key);
 void add_wall_problem(const WallSection& wall, double width, TextureProblems& out);
+void add_rim_problem(const WallSection& wall, double land, TextureProblems& out);
 
 }  // namespace papilla::geometry

@@ -19,14 +19,30 @@
 namespace papilla::geometry {
 namespace {
 
-// Bilinear value at (x, y) [m] within the map; beyond its last pixels the border's value.
-double value_at(const Heightmap& h, double x, double y) {
-  const double u = std::clamp(x / h.grid.dx() - 0.5, 0.0, h.grid.nx - 1.0);
-  const double v = std::clamp(y / h.grid.dy() - 0.5, 0.0, h.grid.ny - 1.0);
-  const int ix = std::min(static_cast<int>(u), h.grid.nx - 1),
-            iy = std::min(static_cast<int>(v), h.grid.ny - 1);
-  const int jx = std::min(ix + 1, h.grid.nx - 1), jy = std::min(iy + 1, h.grid.ny - 1);
-  const double s = u - ix, t = v - iy;
+// What lies beyond the centres of a map's last pixels: their value, or the map again.
+enum class Border { Held, Repeats };
+
+// Two neighbouring pixels along a side, and the share of the second.
+struct Between {
+  int first, second;
+  double share;
+};
+
+Between between(double at, double pixel, int n, Border border) {
+  const double place = at / pixel - 0.5;
+  if (border == Border::Repeats) {
+    const int below = static_cast<int>(std::floor(place));
+    return {wrap(below, n), wrap(below + 1, n), place - below};
+  }
+  const double u = std::clamp(place, 0.0, n - 1.0);
+  const int i = std::min(static_cast<int>(u), n - 1);
+  return {i, std::min(i + 1, n - 1), u - i};
+}
+
+// Bilinear value at (x, y) [m].
+double value_at(const Heightmap& h, double x, double y, Border border) {
+  const auto [ix, jx, s] = between(x, h.grid.dx(), h.grid.nx, border);
+  const auto [iy, jy, t] = between(y, h.grid.dy(), h.grid.ny, border);
   return (1 - t) * ((1 - s) * h(ix, iy) + s * h(jx, iy)) +
          t * ((1 - s) * h(ix, jy) + s * h(jx, jy));
 }
@@ -50,7 +66,7 @@ std::shared_ptr<const Scan> scan_of(const ScanSource& source) {
 // blended into what lies below the lower border, so that the patch repeats without a step (Eq.
 // geometry.4). Variance is kept. A pixel is the mean over its area.
 Heightmap periodic_cut(const Heightmap& source, const Grid& grid, double x0, double y0, double bx,
-                       double by, const Plane& plane) {
+                       double by, const Plane& plane, Border border) {
   const int nx = std::max(1, static_cast<int>(std::ceil(grid.dx() / source.grid.dx() - 1e-9))),
             ny = std::max(1, static_cast<int>(std::ceil(grid.dy() / source.grid.dy() - 1e-9)));
   const auto sample = [&](double x, double y) {
@@ -58,7 +74,7 @@ Heightmap periodic_cut(const Heightmap& source, const Grid& grid, double x0, dou
     for (int j = 0; j < ny; ++j) {
       for (int i = 0; i < nx; ++i)
         sum += value_at(source, x + ((i + 0.5) / nx - 0.5) * grid.dx(),
-                        y + ((j + 0.5) / ny - 0.5) * grid.dy());
+                        y + ((j + 0.5) / ny - 0.5) * grid.dy(), border);
     }
     return sum / (nx * ny) - plane.a - plane.b * x - plane.c * y;
   };
@@ -85,20 +101,12 @@ Heightmap periodic_cut(const Heightmap& source, const Grid& grid, double x0, dou
   return out;
 }
 
-// A map that repeats, over sides that need not be its own: from its corner on, as often as it
-// takes.
-Heightmap tiled(const Heightmap& source, const Grid& grid) {
-  const Grid& g = source.grid;
-  const int nx = static_cast<int>(std::ceil(grid.lx / g.lx - 1e-9)),
-            ny = static_cast<int>(std::ceil(grid.ly / g.ly - 1e-9));
-  if (nx == 1 && ny == 1) return periodic_cut(source, grid, 0, 0, 0, 0, {});
-  Heightmap tiles{{nx * g.nx, ny * g.ny, nx * g.lx, ny * g.ly}, {}};
-  tiles.z.reserve(tiles.grid.size());
-  for (int iy = 0; iy < tiles.grid.ny; ++iy) {
-    const auto row = source.z.begin() + static_cast<std::ptrdiff_t>(g.index(0, iy % g.ny));
-    for (int tile = 0; tile < nx; ++tile) tiles.z.insert(tiles.z.end(), row, row + g.nx);
-  }
-  return periodic_cut(tiles, grid, 0, 0, 0, 0, {});
+// Whether so many whole maps make the sides.
+bool whole_maps(const Grid& sides, const Grid& map) {
+  const auto whole = [](double times) {
+    return times > 0.5 && std::abs(times - std::round(times)) < 1e-6;
+  };
+  return whole(sides.lx / map.lx) && whole(sides.ly / map.ly);
 }
 
 bool same_pixels(const Grid& a, const Grid& b) {
@@ -151,29 +159,43 @@ Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& a
         "{}: {:.4g} x {:.4g} um is smaller than the patch of {:.4g} um; lower texture.patch",
         source.file, 1e6 * whole.lx, 1e6 * whole.ly, 1e6 * patch));
   }
-  const double beyond = std::max(std::abs(at.x) - 0.5 * (whole.lx - patch),
-                                 std::abs(at.y) - 0.5 * (whole.ly - patch));
+  // As a part of a stack it is asked for the sides of that.
+  const auto other = [&](double side) { return std::abs(side / patch - 1) > 1e-9; };
+  const bool part = other(grid.lx) || other(grid.ly), repeats = scan->changes.repeats;
+  const bool larger = part && (grid.lx > whole.lx * (1 + 1e-9) || grid.ly > whole.ly * (1 + 1e-9));
+  const bool tiles = part && (source.as_is || (repeats && larger && whole_maps(grid, whole)));
+  if (larger && !tiles) {
+    throw InputError(fmt::format(
+        "{}: {:.4g} x {:.4g} um is smaller than the {:.4g} x {:.4g} um of the stack that it is a "
+        "part of{}; give a larger map, or the other parts a shorter period",
+        source.file, 1e6 * whole.lx, 1e6 * whole.ly, 1e6 * grid.lx, 1e6 * grid.ly,
+        repeats ? ", and they are no whole number of it" : ""));
+  }
+  const double side_x = tiles ? patch : std::max(patch, grid.lx),
+               side_y = tiles ? patch : std::max(patch, grid.ly);
+  const double beyond = std::max(std::abs(at.x) - 0.5 * (whole.lx - side_x),
+                                 std::abs(at.y) - 0.5 * (whole.ly - side_y));
   if (beyond > 1e-9 * patch) {
     throw InputError(fmt::format(
-        "texture.at_x, texture.at_y: the square of {:.4g} um round ({:.4g}, {:.4g}) um reaches "
-        "{:.4g} um beyond the map, {:.4g} x {:.4g} um: {}",
-        1e6 * patch, 1e6 * at.x, 1e6 * at.y, 1e6 * beyond, 1e6 * whole.lx, 1e6 * whole.ly,
-        source.file));
+        "texture.at_x, texture.at_y: the patch of {:.4g} x {:.4g} um round ({:.4g}, {:.4g}) um "
+        "reaches {:.4g} um beyond the map, {:.4g} x {:.4g} um: {}",
+        1e6 * side_x, 1e6 * side_y, 1e6 * at.x, 1e6 * at.y, 1e6 * beyond, 1e6 * whole.lx,
+        1e6 * whole.ly, source.file));
   }
   if (source.as_is && same_pixels(grid, whole)) return {grid, scan->map.z};  // to the last bit
-  const auto other = [&](double side) { return std::abs(side / patch - 1) > 1e-9; };
-  if (source.as_is && (other(grid.lx) || other(grid.ly))) {
+  if (tiles) {
     if (at != MapPlace{}) {
       throw InputError(source.file +
                        ": texture.at_x, texture.at_y: a map that repeats by itself begins at its "
                        "corner as a part of a stack; leave them out");
     }
-    return tiled(scan->map, grid);
+    return periodic_cut(scan->map, grid, 0, 0, 0, 0, {}, Border::Repeats);
   }
   const double x0 = 0.5 * (whole.lx - grid.lx) + at.x, y0 = 0.5 * (whole.ly - grid.ly) + at.y;
   const double seam = source.as_is ? 0 : kSeam;  // what is known repeats by itself
   return periodic_cut(scan->map, grid, x0, y0, std::clamp(x0, 0.0, seam * grid.lx),
-                      std::clamp(y0, 0.0, seam * grid.ly), {});
+                      std::clamp(y0, 0.0, seam * grid.ly), {},
+                      source.as_is || repeats ? Border::Repeats : Border::Held);
 }
 
 double measured_skin_cutoff(const std::string& file, double width) {
@@ -199,7 +221,7 @@ Heightmap measured_skin(const std::string& file, double width, const Grid& grid,
                y0 = by + random.uniform() * std::max(0.0, room_y);
   const bool mirror_x = random.uniform() < 0.5, mirror_y = random.uniform() < 0.5;
   const Plane plane = plane_of(source, x0, y0, grid.lx, grid.ly);
-  const Heightmap cut = periodic_cut(source, grid, x0, y0, bx, by, plane);
+  const Heightmap cut = periodic_cut(source, grid, x0, y0, bx, by, plane, Border::Held);
   Heightmap out = cut;
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix) {

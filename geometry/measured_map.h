@@ -35,8 +35,9 @@ struct MapPlace {
 
 // The map of the file, levelled, mended and made periodic, resampled on the grid: cut at a place.
 // One that repeats by itself and is asked for other sides than its patch, as a part of a stack,
-// begins at its corner, as textures do. Throws InputError for a map smaller than `patch` [m], and
-// for a place where the patch reaches beyond it.
+// begins at its corner, as textures do, and is taken as often as it takes. Throws InputError for a
+// map smaller than `patch` [m], for a larger grid that is no whole number of it, and for a place
+// where the patch reaches beyond it.
 Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& at,
                        const Grid& grid);
 

@@ -19,6 +19,7 @@ namespace {
 constexpr double kFarDeviations = 8;    // of the median from the median: outliers
 constexpr double kMostOutliers = 0.02;  // of the pixels; more of them are features
 constexpr double kMostFilled = 0.2;
+constexpr double kMostHigh = 1e100;  // [m] of either sign: sums of their squares stay numbers
 constexpr double kNoticedTilt = 0.1 * kPi / 180;  // of a made map: a scan that was saved as one
 constexpr double kSmoothest = 0.1e-9;  // [m] rms; of superpolished glass it is 0.1 nm and more
 
@@ -33,6 +34,12 @@ double mean_of(const Heightmap& h) {
   double sum = 0;
   for (const double z : h.z) sum += z;
   return sum / static_cast<double>(h.z.size());
+}
+
+double mean_of(const Heightmap& h, const Sound& sound) {
+  double sum = 0;
+  for (std::size_t i = 0; i < h.z.size(); ++i) sum += sound[i] ? h.z[i] : 0;
+  return sum / static_cast<double>(h.z.size() - count_unsound(sound));
 }
 
 double rms_of(const Heightmap& h) {
@@ -79,7 +86,7 @@ void level(Heightmap& h, const Sound& sound, bool asked, ScanChanges& changes) {
   changes.repeats = !asked && borders_meet(h);
   changes.made = !asked && changes.made;
   const Plane plane = changes.repeats || changes.made
-                          ? Plane{mean_of(h)}
+                          ? Plane{mean_of(h, sound)}
                           : plane_of(h, 0, 0, g.lx, g.ly, changes.filled > 0 ? &sound : nullptr);
   for (int iy = 0; iy < g.ny; ++iy) {
     for (int ix = 0; ix < g.nx; ++ix) h(ix, iy) -= plane.at(g.x(ix), g.y(iy));
@@ -199,6 +206,11 @@ Scan read_scan(const ScanSource& source) {
     throw InputError(
         fmt::format("{}: {} are no numbers; at most a fifth can be filled: cut the map",
                     source.file, share_text(changes.filled, changes.pixels)));
+  }
+  for (std::size_t i = 0; i < sound.size(); ++i) {
+    if (sound[i] && std::abs(h.z[i]) > kMostHigh)
+      throw InputError(
+          fmt::format("{}: a height of {:.3g} m is no surface's", source.file, h.z[i]));
   }
   double median = 0;
   if (!source.as_is) {

@@ -17,7 +17,13 @@ int environment_number(std::initializer_list<const char*> names, int otherwise) 
   return otherwise;
 }
 
-int launched_size() { return environment_number({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}, 1); }
+// Of PMIx the environment has the rank alone; Slurm, which launches by it, says how many there are.
+int launched_size() {
+  const int by_slurm = std::getenv("PMIX_RANK")
+                           ? environment_number({"SLURM_STEP_NUM_TASKS", "SLURM_NTASKS"}, 1)
+                           : 1;
+  return environment_number({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}, by_slurm);
+}
 
 class MpiTeam : public Team {
  public:
@@ -53,6 +59,7 @@ class MpiTeam : public Team {
 }  // namespace
 
 int launched_rank() {
+  if (launched_size() <= 1) return 0;
   return environment_number({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"}, 0);
 }
 

@@ -143,8 +143,12 @@ class GsfRows : public PlainRows {
     single_ = true;
     header_.nx = static_cast<int>(nx);
     header_.ny = static_cast<int>(ny);
-    header_.lx = xy * real_value(path, header, "XReal");
-    header_.ly = xy * real_value(path, header, "YReal");
+    // The format leaves it to its writers whether the sides are said.
+    const auto side = [&](const char* key) {
+      return header.count(key) > 0 ? xy * real_value(path, header, key) : 0;
+    };
+    header_.lx = side("XReal");
+    header_.ly = side("YReal");
     header_.made = header.count(kDesignKey) > 0;
     begin((end / 4 + 1) * 4);
   }

@@ -27,9 +27,11 @@ Heightmap heights(const PillarArray& t, const Grid& grid) {
   });
 }
 
-// A pillar widens towards its floor: its own walls never meet.
+// A pillar widens towards its floor: its own walls never meet, its rims do.
 TextureProblems problems(const PillarArray& t) {
-  return array_problems(t.period, t.diameter, "diameter");
+  TextureProblems out = array_problems(t.period, t.diameter, "diameter");
+  add_rim_problem(wall(t), t.diameter, out);
+  return out;
 }
 
 TextureFacts facts(const PillarArray& t) { return array_facts(array(t), wall(t)); }

@@ -1,5 +1,7 @@
 #include "geometry/textures/random_rough.h"
 
+#include <fmt/format.h>
+
 #include <cstdint>
 
 #include "geometry/roughness.h"
@@ -21,8 +23,17 @@ Heightmap heights(const RandomRough& t, const Grid& grid) {
 }
 
 TextureProblems problems(const RandomRough& t) {
-  if (t.cutoff < t.roll_off) return {};
-  return {{"cutoff", "must be shorter than the roll-off wavelength"}};
+  constexpr double kReference = Spectrum{}.reference_length;
+  TextureProblems out;
+  if (t.cutoff >= t.roll_off)
+    out.emplace_back("cutoff", "must be shorter than the roll-off wavelength");
+  if (t.cutoff > kReference) {
+    out.emplace_back("cutoff",
+                     fmt::format("{:.4g} um is longer than the {:.4g} um that rms is of; no wave "
+                                 "would be left",
+                                 1e6 * t.cutoff, 1e6 * kReference));
+  }
+  return out;
 }
 
 TextureFacts facts(const RandomRough& t) {

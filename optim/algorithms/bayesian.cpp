@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/constants.h"
 #include "base/random.h"
@@ -64,7 +65,7 @@ class Bayesian : public Searcher {
       fill(out, 1, seen_);
       if (!out.empty()) return out;
     }
-    return {next_point(seen_)};
+    return next_or_none();
   }
 
   void tell(const std::vector<Evaluation>& evaluations) override {
@@ -149,15 +150,16 @@ class Bayesian : public Searcher {
                        [](const Evaluation& e) { return e.outcome.ok; }))
         return {};
       fit(believed, nullptr, nullptr);
-      const Point u = next_point(believed, false);
-      Evaluation belief{u, {}};
+      const std::optional<Point> u = next_point(believed, false);
+      if (!u) break;
+      Evaluation belief{*u, {}};
       belief.outcome.ok = true;
       for (const auto& model : objectives_)
-        belief.outcome.objectives.push_back(model.predict(encoded(u)).mean);
+        belief.outcome.objectives.push_back(model.predict(encoded(*u)).mean);
       for (const auto& model : constraints_)
-        belief.outcome.constraints.push_back(model.predict(encoded(u)).mean);
+        belief.outcome.constraints.push_back(model.predict(encoded(*u)).mean);
       believed.push_back(belief);
-      out.push_back(u);
+      out.push_back(*u);
     }
     return out;
   }
@@ -187,12 +189,14 @@ class Bayesian : public Searcher {
     }
     fill(out, count, seen_);
     if (out.empty()) initial_ = static_cast<int>(seen_.size());  // nothing new left
-    return out.empty() ? ask_exhausted() : out;
+    if (!out.empty()) return out;
+    return seen_.size() < 2 ? out : next_or_none();
   }
 
-  std::vector<Point> ask_exhausted() {
-    if (seen_.size() < 2) return {};
-    return {next_point(seen_)};
+  // None: every point that is tried is known.
+  std::vector<Point> next_or_none() {
+    const std::optional<Point> next = next_point(seen_);
+    return next ? std::vector<Point>{*next} : std::vector<Point>{};
   }
 
   // Models through `known`; drafts below them where given.
@@ -320,8 +324,9 @@ class Bayesian : public Searcher {
     }
   }
 
-  // Where the acquisition is highest, given what is known. Models are fitted unless they fit.
-  Point next_point(const std::vector<Evaluation>& known, bool fitting = true) {
+  // Where the acquisition is highest, given what is known; nothing where no new point is found, as
+  // of few choices. Models are fitted unless they fit.
+  std::optional<Point> next_point(const std::vector<Evaluation>& known, bool fitting = true) {
     const bool any_ok =
         std::any_of(known.begin(), known.end(), [](const Evaluation& e) { return e.outcome.ok; });
     RandomStream random(problem_.seed, "acquisition", known.size());
@@ -331,7 +336,8 @@ class Bayesian : public Searcher {
         const Point u = problem_.space.snapped(low_discrepancy(n, problem_.seed, drawn_++));
         if (is_new(u, known) && problem_.cheaply_feasible(u)) return u;
       }
-      return problem_.space.snapped(low_discrepancy(n, problem_.seed, drawn_++));
+      const Point any = problem_.space.snapped(low_discrepancy(n, problem_.seed, drawn_++));
+      return is_new(any, known) ? std::optional(any) : std::nullopt;
     }
     if (fitting) {
       fit_drafts();
@@ -389,7 +395,13 @@ class Bayesian : public Searcher {
       return true;
     };
     for (const Point& u : candidates) consider(u);
-    if (best.empty()) return problem_.space.snapped(candidates.front());
+    if (best.empty()) {  // the first new one, which breaks a costly limit
+      for (const Point& raw : candidates) {
+        const Point u = problem_.space.snapped(raw);
+        if (is_new(u, known)) return u;
+      }
+      return std::nullopt;
+    }
     checks = kCostlyChecks;
     apart = 1e-3;
     for (double step = 0.1; step > 2e-3; step *= 0.5) {  // pattern search from the best candidate

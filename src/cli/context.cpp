@@ -92,7 +92,8 @@ void add_pick_option(Command command, std::string& rule) {
           "--pick", rule,
           "Which design of the front: worst (highest worst modulation; default under a "
           "drive), knee (default without), an objective (its best), or a number; judged over "
-          "the belief that the fingers name")
+          "the belief that the fingers name (of a finished run that is by the rule which the run "
+          "decided by, else by the fit)")
       .type_name("RULE");
 }
 

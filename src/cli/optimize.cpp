@@ -115,7 +115,7 @@ nlohmann::ordered_json result_json(const OptimiseResult& r, const StudyProblem& 
     const std::vector<double> values = problem.space().value(d.unit);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const Variable& v = study.variables[i];
-      if (!is_shown(d.design, v)) continue;
+      if (!is_shown(problem, d.design, i)) continue;
       variables[v.path] = v.is_kind() ? Json(variable_text(v, values[i])) : Json(values[i]);
     }
     out["designs"].push_back({{"folder", d.folder},

@@ -12,6 +12,7 @@
 #include "config/reader.h"
 #include "config/writer.h"
 #include "forward/counterface.h"
+#include "geometry/roughness.h"
 #include "physics/capillary/facts.h"
 #include "scene/belief.h"
 #include "scene/uncertainty.h"
@@ -74,6 +75,10 @@ void finger_problems(const Finger& finger, const ModelOptions& model, Problems& 
   }
   if (finger.skin.map.empty() && finger.skin.cutoff >= finger.skin.roll_off) {
     out.push_back({"finger.skin.cutoff", "expected a shorter wavelength than roll_off"});
+  }
+  if (finger.skin.map.empty() && finger.skin.cutoff > Spectrum{}.reference_length) {
+    out.push_back(
+        {"finger.skin.cutoff", "expected at most the 12 um that rms is of: no wave would be left"});
   }
   if (!finger.skin.map.empty() && model.closure != Closure::Uniform) {
     out.push_back({"finger.skin.map",

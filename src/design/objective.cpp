@@ -105,6 +105,9 @@ void read_objective(StudyFile& file) {
   file.study.objective.minimise = metrics(file, *section, "minimise");
   if (const Node* target = section->find("target")) read_targets(file, *target);
   const std::vector<std::string> risk = texts(file, *section, "risk", "objective");
+  if (risk.size() > 1)
+    file.document.problem(section->find("risk")->place, "objective.risk",
+                          fmt::format("expected one text, got {}", risk.size()));
   if (!risk.empty()) file.study.objective.risk = risk.front();
 }
 

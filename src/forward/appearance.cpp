@@ -21,14 +21,15 @@ constexpr int kPeriodPixels = 96, kRandomPixels = 1024;
 constexpr double kTrusted = 2e-6;  // narrower features: compare with a rigorous method
 // Sparkle of a patch is known where this many subpixels have room along it.
 constexpr double kSubpixels = 6;
-// A shorter patch has no order that parts what leaves within 2.5 deg from haze.
-const double kLeastPatch = 2 * visible_wavelengths().back() / std::sin(kHazeAngle);
 constexpr double kTrustedSlope = 20 * kPi / 180;  // of a thin screen (docs/theory/optics.md)
 
 constexpr std::size_t kMostLooks = 32;
 // The Fourier modal method takes seconds: of discs up to this period, of lines, which are cheap, up
 // to the other.
 constexpr double kLargestDiscs = 2e-6, kLargestLines = 6e-6;
+
+// A shorter patch has no order that parts what leaves within the cone from haze.
+double least_patch(double cone) { return 2 * visible_wavelengths().back() / std::sin(cone); }
 
 // What a look depends on.
 struct Seen {
@@ -138,11 +139,13 @@ Optics screen(const Texture& texture, const OpticalMedia& media, const Light& li
   Optics out = phase_screen(h, media, light);
   warn_of_slope(out, roughness_parameters(h).sdq);
   const double side = std::min(grid.lx, grid.ly);
-  if (side < kLeastPatch) {
-    warn(out, fmt::format(
-                  "a patch of {:.3g} um is short: what leaves within 2.5 deg counts as "
-                  "haze; use a patch of {:.3g} um or more to exclude light scattered below 2.5 deg",
-                  1e6 * side, 1e6 * kLeastPatch));
+  const double cone = light.meters.cone, least = least_patch(cone);
+  if (side < least) {
+    warn(out,
+         fmt::format("a patch of {0:.3g} um is short: what leaves within {1:.3g} deg counts as "
+                     "haze; use a patch of {2:.3g} um or more to exclude light scattered below "
+                     "{1:.3g} deg",
+                     1e6 * side, cone * 180 / kPi, 1e6 * least));
   }
   if (const std::optional<Panel>& panel = light.meters.panel;
       !known.cell && panel && side < kSubpixels * std::max(panel->width, panel->height)) {
@@ -187,6 +190,12 @@ Optics computed(const Seen& seen) {
     case OpticsRegime::Refused:
       PAPILLA_CHECK(false, "what is refused is not computed");
   }
+  if (view.lattices == LatticeTheory::Rigorous && known.cell &&
+      out.regime != OpticsRegime::Rigorous && out.regime != OpticsRegime::Flat)
+    warn(out, fmt::format("view.lattices = \"rigorous\" is not followed: the Fourier modal method "
+                          "takes holes and pillars up to {:.0f} um and lines up to {:.0f} um, seen "
+                          "along the normal",
+                          1e6 * kLargestDiscs, 1e6 * kLargestLines));
   if (view.fill_index > 1) {
     warn(out, "seen with the texture filled; the finger feels it open");
   }
@@ -273,12 +282,26 @@ Meters meters_of(const Surface& surface, const View& view) {
   return out;
 }
 
+namespace {
+
+// Heights that depend on the place along x alone: of a stack no part may have any along y.
+bool one_section(const Texture& texture) {
+  if (const auto* stack = std::get_if<Stack>(&texture.kind)) {
+    return std::all_of(stack->parts.begin(), stack->parts.end(), [](const Texture& part) {
+      return !facts(part).relief.present || one_section(part);
+    });
+  }
+  return facts(texture).directional;
+}
+
+}  // namespace
+
 std::optional<FeatureArray> sections(const Texture& texture) {
   const TextureFacts known = facts(texture);
   if (const auto* array = std::get_if<FeatureArray>(&known.outline)) {
     return known.relief.present ? std::optional(*array) : std::nullopt;
   }
-  if (!known.cell || !known.directional || !known.relief.planes) return std::nullopt;
+  if (!known.cell || !one_section(texture) || !known.relief.planes) return std::nullopt;
   constexpr int kPixels = 2048, kSteps = 64;
   const double period = known.period();
   const Heightmap row = generate(texture, {kPixels, 2, period, period});

@@ -48,17 +48,42 @@ const char* state_text(FingerState state) {
   return "wet fingers";
 }
 
+// " (worst(voltage_for(modulation = 0.3)) 147.5 ± 2.1 V)": what was found of what is recommended;
+// "" where a limit alone asks for it.
+std::string found_voltages(const ResultFiles& f) {
+  const Score score = recommended_of(f).confirmed;
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < score.values.size(); ++k) {
+    const StudyObjective& o = f.problem.objectives()[k];
+    if (!o.aimed && std::holds_alternative<VoltageFor>(o.expression.metric))
+      out.push_back(o.name + " " + objective_text(f, "what is recommended", score, k));
+  }
+  return out.empty() ? "" : " (" + join_names(out) + ")";
+}
+
 }  // namespace
 
-std::string drive_text(const Drive& drive) {
+bool judged_at_amplitude(const ResultFiles& f) {
+  return f.problem.driven() && f.problem.goals().own_amplitude;
+}
+
+std::string drive_text(const ResultFiles& f) {
+  const Drive drive = built_design(f).drive;
   if (!drive.driven()) return {};
   const auto said = [](const char* what, double value, const char* unit) {
     return stated(bare_number(what, value / find_unit(unit)->to_si, unit, kAsked, {}),
                   in_unit(value, unit, 4));
   };
-  const std::string source = drive.control == DriveControl::Voltage
-                                 ? said("amplitude of the drive", drive.amplitude, "V") + " (peak)"
-                                 : said("current of the drive", drive.current, "mA");
+  const bool direct = drive.waveform == Waveform::Dc;
+  std::string source;
+  if (!f.problem.goals().own_amplitude) {
+    source = "the voltage that is asked for" + found_voltages(f);
+  } else if (drive.control == DriveControl::Voltage) {
+    source = said("amplitude of the drive", drive.amplitude, "V") + (direct ? "" : " (peak)");
+  } else {
+    source = said("current of the drive", drive.current, "mA");
+  }
+  if (direct) return source + ", a direct voltage";
   return fmt::format("{} at {}", source, said("frequency of the drive", drive.frequency, "kHz"));
 }
 
@@ -85,7 +110,7 @@ std::string conditions_text(const ResultFiles& f) {
   const std::string load = least == most
                                ? said("the", least)
                                : said("the least", least) + " to " + said("the largest", most);
-  const std::string drive = drive_text(built.drive);
+  const std::string drive = drive_text(f);
   return fmt::format("Judged for {} at {} relative humidity under {}{}.",
                      join_names(states, " and "),
                      humidity_text(f.study.design.environment.relative_humidity), load,
@@ -112,8 +137,13 @@ std::string skin_text(const ResultFiles& f) {
   const Stability& s = f.result.stability;
   const auto place = checked_place(f);
   if (f.study.design.counterface.in_place()) return {};
-  if (!s.other_skin || *s.other_skin >= s.variants.size() || !place)
-    return " Another state of the skin (natural, not degreased) was not tried on it.";
+  if (!s.other_skin || *s.other_skin >= s.variants.size() || !place) {
+    const bool clean =
+        search::task_design(f.study, f.study.design, f.problem.tasks().front()).finger.state ==
+        FingerState::Clean;
+    return fmt::format(" Another state of the skin ({}) was not tried on it.",
+                       clean ? "natural, not degreased" : "degreased");
+  }
   const StabilityVariant &other = s.variants[*s.other_skin], &own = s.variants.front();
   if (other.values[*place].empty() || own.values[*place].empty())
     return fmt::format(" On {} {}.", other.name, no_value_text(other, *place));
@@ -124,7 +154,7 @@ std::string skin_text(const ResultFiles& f) {
                                  checked_value(o, other.values[*place][k], other.name),
                                  checked_value(o, own.values[*place][k], own.name)));
   }
-  if (f.problem.driven() && *place < other.worst.size())
+  if (judged_at_amplitude(f) && *place < other.worst.size())
     values.push_back(fmt::format(
         "a worst modulation of {}{} in place of {}", checked_worst(other, *place),
         other.worst[*place] < kNoticed ? ", which nobody feels," : "", checked_worst(own, *place)));
@@ -168,7 +198,7 @@ std::string model_text(const ResultFiles& f) {
 // A modulation that nobody feels somewhere.
 std::string felt_text(const ResultFiles& f) {
   const double worst = recommended_of(f).confirmed.worst;
-  if (!f.problem.driven() || worst >= kNoticed) return {};
+  if (!judged_at_amplitude(f) || worst >= kNoticed) return {};
   return fmt::format(
       "At its worst, over fingers and humidity, the modulation is {}: below {}, the least "
       "relative difference of friction that people notice (Fehlberg 2022), it is not felt there.",
@@ -216,15 +246,22 @@ std::string film_text(const ResultFiles& f) {
                   in_unit(length, "nm", 4) + (of.empty() ? "" : " of " + of));
   };
   const bool cut = planes && planes->high > planes->low;
-  if (!cut || built.surface.process != FilmProcess::Planar || films.size() != 1) {
+  const auto made = [&](const FilmDielectric& layer) {
+    return layer.made_by(built.surface.process);
+  };
+  if (!cut || films.size() != 1 || made(films[0]) != FilmProcess::Planar) {
     if (!f.problem.driven() || films.empty()) return {};
+    const bool alike = std::all_of(films.begin(), films.end(), [&](const FilmDielectric& layer) {
+      return made(layer) == made(films[0]);
+    });
     std::vector<std::string> layers;
     for (const FilmDielectric& layer : films) {
       layers.push_back(
-          said("film", layer.thickness, layer.material.empty() ? "a dielectric" : layer.material));
+          said("film", layer.thickness, layer.material.empty() ? "a dielectric" : layer.material) +
+          (cut && !alike ? process_text(made(layer)) : ""));
     }
-    return "Film: " + join_names(layers, " and ") +
-           (cut ? process_text(built.surface.process) : std::string()) + ".";
+    return "Film: " + join_names(layers, alike || !cut ? " and " : "; ") +
+           (cut && alike ? process_text(made(films[0])) : "") + ".";
   }
   return fmt::format(
       "Film: {} are laid, {} are taken away where the texture is deep, {} stay there.",
@@ -316,7 +353,7 @@ std::string worst_text(const std::string& of, double worst) {
 std::string unfelt_skin_text(const ResultFiles& f) {
   const Stability& s = f.result.stability;
   const auto place = checked_place(f);
-  if (!f.problem.driven() || !place || !s.other_skin || *s.other_skin >= s.variants.size())
+  if (!judged_at_amplitude(f) || !place || !s.other_skin || *s.other_skin >= s.variants.size())
     return {};
   const StabilityVariant& other = s.variants[*s.other_skin];
   if (*place >= other.worst.size() || !(other.worst[*place] < kNoticed)) return {};

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -16,6 +17,7 @@
 #include "report/page_data.h"
 #include "report/page_parts.h"
 #include "report/ranking.h"
+#include "report/recommendation.h"
 #include "report/sums.h"
 #include "search/pick.h"
 #include "search/records.h"
@@ -80,6 +82,16 @@ std::string notice(const Folder& folder) {
          ". This page shows them as they are; it is no report of that run.</p>\n";
 }
 
+// What of the page is not about the design that was picked for it.
+std::string picked_text(const Json& data) {
+  if (!data.contains("picked")) return "";
+  return "<p class=\"notice\" role=\"alert\">This page shows " +
+         markup_text(visible(design_name(data["picked"].get<std::string>()))) +
+         ", which was picked for it. The recommendation, what to build, its limits and what they "
+         "rest on are of the design that the run recommends; <code>papilla optimize --resume "
+         "--pick</code> makes them of another.</p>\n";
+}
+
 // One kind of page: what it holds beside the common frame.
 struct PageKind {
   std::string_view body, script, solid;
@@ -107,7 +119,7 @@ std::string page_text(const Folder& folder, std::string title, const PageKind& k
   put("{{three}}", kind.solid);
   put("{{chart}}", kChartScript);
   put("{{body}}", kind.body);
-  put("{{notice}}", notice(folder));
+  put("{{notice}}", notice(folder) + picked_text(data));
   put("{{plain}}", without_scripts(folder));
   put("{{heading}}", markup_text(title));
   put("{{style}}", kPageStyle);
@@ -124,7 +136,7 @@ Json parsed(const Folder& folder, const std::string& name) {
 }
 
 // A finished `papilla optimize`; `design` is the folder of the one the page is about.
-std::string optimize_page(const Folder& root, const std::string& design) {
+std::string optimize_page(const Folder& root, std::string design) {
   for (const char* name : {"pareto.csv", "history.csv", "plan.txt", "summary.md", "run.json",
                            "best/metrics.json", "best/design.toml", "best/heightmap.gsf"}) {
     if (!root.has(name)) {
@@ -134,6 +146,9 @@ std::string optimize_page(const Folder& root, const std::string& design) {
     }
   }
   Json data = Json::object(), designs = Json::object();
+  Json run = parsed(root, "run.json");
+  if (run.contains("design") && run["design"] == design) design = "best";
+  if (design != "best") data["picked"] = design;
   std::vector<std::string> front;
   if (root.has_folder("front")) {
     for (const std::string& name : root.below("front").folders()) front.push_back("front/" + name);
@@ -152,7 +167,7 @@ std::string optimize_page(const Folder& root, const std::string& design) {
   data["history"] = root.read("history.csv");
   data["plan"] = root.read("plan.txt");
   data["summary"] = root.read("summary.md");
-  data["run"] = parsed(root, "run.json");
+  data["run"] = std::move(run);
   return page_text(root, title, {kOptimizeHtml, kOptimizeScript, kThreeScript}, std::move(data));
 }
 

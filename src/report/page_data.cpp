@@ -151,7 +151,9 @@ Json design_json(const Folder& folder, bool with_flat) {
   }
   out["tasks"] = Json::array();
   for (const Json& task : metrics.at("tasks")) {
-    Json t{{"name", task.at("name")}, {"points", trimmed(task.at("response"))}};
+    Json t{{"name", task.at("name")},
+           {"weight", task.value("weight", 1.0)},
+           {"points", trimmed(task.at("response"))}};
     if (with_flat && task.contains("flat")) t["flat"] = trimmed(task["flat"]);
     out["tasks"].push_back(std::move(t));
   }

@@ -64,10 +64,10 @@ std::string chosen_value(const Variable& v, double value, const std::string& of)
                 text);
 }
 
-// "contact angle 90 deg (60 deg in the study file)": what of that which is built is not the
-// texture's.
+}  // namespace
+
 std::string finish_text(const ResultFiles& f) {
-  const std::vector<double> own = f.problem.space().value(f.problem.space().unit_of_study());
+  const std::vector<double>& own = f.problem.space().own_values();
   const Point& unit = f.result.build ? f.result.build->made.unit : best_of(f).unit;
   const std::vector<double> built = f.problem.space().value(unit);
   std::vector<std::string> out;
@@ -79,8 +79,6 @@ std::string finish_text(const ResultFiles& f) {
   }
   return join_names(out);
 }
-
-}  // namespace
 
 std::string surface_text(const ResultFiles& f, const std::string& of, const Point& unit) {
   const std::vector<double> value = f.problem.space().value(unit);
@@ -154,7 +152,7 @@ std::string worth_building(const ResultFiles& f) {
   const OptimiseResult& r = f.result;
   const FinalDesign& best = best_of(f);
   std::vector<std::string> clauses;
-  if (f.problem.driven()) {
+  if (judged_at_amplitude(f)) {
     const auto rounded = worth_on_grid(f.problem, r);
     clauses.push_back(fmt::format(
         "Its worst modulation, (F_on - F_off)/F_off, over fingers and humidity is {}{}{}.",

@@ -30,6 +30,9 @@ std::string plain_name(const std::string& path);
 std::string design_name(const std::string& folder);
 // "grooves 1.2 um wide at the top, 349 nm deep, 5.41 um from one to the next, walls 88 deg steep"
 std::string shape_text(const Design& design);
+// "contact angle 90 deg (60 deg in the study file)": what of that which is built is not the
+// texture's; "" where nothing was changed.
+std::string finish_text(const ResultFiles& files);
 // "contact angle of water 63 deg, peak voltage 180 V": what the variables say of a surface besides
 // its texture. of: whose numbers these are, for the receipts.
 std::string surface_text(const ResultFiles& f, const std::string& of, const Point& unit);

@@ -16,7 +16,8 @@ struct CutWords {
   std::string did, unsure;
 };
 
-CutWords words_of(const ClockCut& cut, const Study& study) {
+// textured: the best design has a texture.
+CutWords words_of(const ClockCut& cut, const Study& study, bool textured) {
   const auto of = [&](const char* what) {
     return fmt::format("{} of {} {}", cut.done, cut.of, what);
   };
@@ -37,7 +38,7 @@ CutWords words_of(const ClockCut& cut, const Study& study) {
       return {"the order under other models not checked",
               "other choices of the model may order the designs otherwise"};
     case RunPart::Flat:
-      if (cut.done > 0) {
+      if (cut.done > 0 || !textured) {
         return {"the study's own surface without texture not computed",
                 "what the finish does is not known"};
       }
@@ -59,8 +60,10 @@ CutWords words_of(const ClockCut& cut, const Study& study) {
 std::string clock_remark(const Study& study, const OptimiseResult& r) {
   if (r.cuts.empty()) return {};
   std::vector<std::string> did, unsure;
+  const bool textured =
+      r.finalists.empty() || facts(r.finalists[r.best].design.texture).relief.present;
   for (const ClockCut& cut : r.cuts) {
-    CutWords words = words_of(cut, study);
+    CutWords words = words_of(cut, study, textured);
     did.push_back(std::move(words.did));
     unsure.push_back(std::move(words.unsure));
   }

@@ -82,7 +82,8 @@ class Writer {
     const Design design = f_.problem.space().design(unit);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const Variable& v = f_.study.variables[i];
-      out += "," + (is_shown(design, v) ? variable_text(v, values[i], true) : std::string());
+      out += "," +
+             (is_shown(f_.problem, design, i) ? variable_text(v, values[i], true) : std::string());
     }
     return out;
   }
@@ -195,7 +196,8 @@ class Writer {
     const std::vector<double> values = f_.problem.space().value(d.unit);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const Variable& v = f_.study.variables[i];
-      if (!d.flat && is_shown(d.design, v)) variables[v.path] = variable_json(v, values[i]);
+      if (!d.flat && is_shown(f_.problem, d.design, i))
+        variables[v.path] = variable_json(v, values[i]);
       if (d.flat && !v.path.starts_with("texture."))
         variables[v.path] = variable_json(v, values[i]);
     }
@@ -238,6 +240,7 @@ class Writer {
     out["tasks"] = Json::array();
     for (std::size_t t = 0; t < d.confirmed.reports.size(); ++t) {
       Json task{{"name", f_.problem.tasks()[t].name},
+                {"weight", f_.problem.tasks()[t].weight},
                 {"response", Json::parse(d.confirmed.reports[t])}};
       if (f_.result.flat) task["flat"] = Json::parse(f_.result.flat->reports[t]);
       out["tasks"].push_back(std::move(task));

@@ -76,7 +76,7 @@ Json compared_row(const ResultFiles& f, const std::string& surface, const std::s
   Json values = Json::array();
   for (std::size_t k = 0; k < score.values.size(); ++k)
     values.push_back(objective_text(f, of, score, k));
-  if (f.problem.driven()) values.push_back(worst_text(of, score.worst));
+  if (judged_at_amplitude(f)) values.push_back(worst_text(of, score.worst));
   return {{"surface", surface}, {"values", std::move(values)}};
 }
 
@@ -88,7 +88,7 @@ Json compared_json(const ResultFiles& f) {
   const std::string name = recommended.flat ? "without texture" : design_name(recommended.folder);
   Json names = Json::array(), rows = Json::array();
   for (const StudyObjective& o : f.problem.objectives()) names.push_back(o.name);
-  if (f.problem.driven()) names.emplace_back("worst modulation");
+  if (judged_at_amplitude(f)) names.emplace_back("worst modulation");
   rows.push_back(
       compared_row(f, name + ", recommended", "what is recommended", recommended.confirmed));
   if (r.flat && !recommended.flat)
@@ -130,7 +130,7 @@ Json beside_json(const ResultFiles& f) {
                    {"text", stated(bare_number("narrowest wall", 1e9 * wall, "nm", kChosen,
                                                {Stage::Confirm, Stage::Rounding}),
                                    in_unit(wall, "nm", 4))}});
-  if (const std::string drive = drive_text(built.drive); !drive.empty())
+  if (const std::string drive = drive_text(f); !drive.empty())
     out.push_back({{"words", "drive"}, {"text", drive}});
   return out;
 }
@@ -208,7 +208,7 @@ Json run_json(const ResultFiles& f) {
     out["shown"][o.name] = {{"scale", shown.scale}, {"unit", shown.unit}};
   }
   if (r.interrupted || r.finalists.empty()) return out;
-  out["advice"] = advice_name(advice_of(f));
+  out["advice"] = advice_name(search::advice_of(f.problem, r));
   out["recommendation"] = recommendation(f);
   out["receipts"] = r.has_best() ? Json(kReceiptsName) : Json();
   if (!r.has_best()) return out;
@@ -246,12 +246,18 @@ Json run_json(const ResultFiles& f) {
       steps.push_back(
           {{"surface", name}, {"objectives", values_json(f, "the step \"" + name + "\"", *score)}});
   };
-  step("flat, finish and drive of the study", r.flat_before);
+  const std::optional<Score> on_grid = worth_on_grid(f.problem, r);
+  const auto own_flat = [&] { step("flat, finish and drive of the study", r.flat_before); };
+  // Each step is from the one before it: the study's own surface comes last where it is that which
+  // is rounded.
+  const bool own_rounded =
+      search::advice_of(f.problem, r) == Advice::LeaveFlat && r.flat_before && on_grid;
+  if (!own_rounded) own_flat();
   step(r.flat_before ? "flat, finish and drive of the best" : "flat", r.flat);
+  if (own_rounded) own_flat();
   const bool textured = facts(recommended.design.texture).relief.present;
   if (textured) step("best, with its texture", recommended.confirmed);
-  step(textured ? "best, on the grid of the fab" : "flat, on the grid of the fab",
-       worth_on_grid(f.problem, r));
+  step(textured ? "best, on the grid of the fab" : "flat, on the grid of the fab", on_grid);
   out["steps"] = std::move(steps);
   out["best_flat"] = Json();
   if (const auto flat = best_flat(f.problem, r)) {

@@ -53,10 +53,10 @@ Json object(Json properties) {
       {"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
 }
 
-Json text_list() {
-  return {{"anyOf",
-           {{{"type", "string"}},
-            {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 1}}}}};
+// A text, or a list of one.
+Json one_text() {
+  const Json text{{"type", "string"}};
+  return {{"anyOf", {text, {{"type", "array"}, {"items", text}, {"maxItems", 1}}}}};
 }
 
 // Collects the properties of the struct that it visits.
@@ -271,7 +271,7 @@ Json study_sections() {
           {"objective", object({{"maximise", metrics},
                                 {"minimise", metrics},
                                 {"target", {{"type", "object"}, {"additionalProperties", value}}},
-                                {"risk", text_list()}})},
+                                {"risk", one_text()}})},
           {"constraints", constraints_schema()},
           {"population", std::move(fingers)},
           {"scenarios", {{"type", "array"}, {"items", std::move(scenario)}}},

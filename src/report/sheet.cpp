@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
 #include "base/units.h"
+#include "design/families.h"
 #include "metrics/shown.h"
 #include "report/grounds.h"
 #include "report/limits.h"
@@ -52,13 +54,16 @@ std::vector<SheetRow> sheet_rows(const ResultFiles& f) {
   Design searched = recommended_of(f).design, built = built_design(f);
   const bool relief = facts(built.texture).relief.present;
   const std::vector<NumberField> known = number_fields(searched), final = number_fields(built);
+  std::map<std::string, std::size_t> variables;  // by the number that each is here
+  for (std::size_t k = 0; k < f.study.variables.size(); ++k) {
+    if (f.problem.space().acts(searched, k))
+      variables.emplace(path_in(known, f.study.variables[k].path), k);
+  }
   std::vector<SheetRow> out;
   for (std::size_t i = 0; i < known.size(); ++i) {
     const std::string& path = known[i].path;
-    const auto variable =
-        std::find_if(f.study.variables.begin(), f.study.variables.end(),
-                     [&](const Variable& v) { return path_in(known, v.path) == path; });
-    const bool is_variable = variable != f.study.variables.end();
+    const auto variable = variables.find(path);
+    const bool is_variable = variable != variables.end();
     const bool of_texture = path.starts_with("texture.");
     if (of_texture ? !relief : !is_variable) continue;
     SheetRow row;
@@ -66,7 +71,7 @@ std::vector<SheetRow> sheet_rows(const ResultFiles& f) {
     row.value = *known[i].value, row.build = *final[i].value;
     row.free = is_variable;
     if (is_variable) {
-      const auto k = static_cast<std::size_t>(variable - f.study.variables.begin());
+      const std::size_t k = variable->second;
       for (const VariableSensitivity& s : f.result.sensitivity) {
         if (s.variable == k) row.down = s.down, row.up = s.up;
       }
@@ -121,6 +126,8 @@ Json row_json(const SheetRow& row) {
 // Lengths that are built and lie on no value of the grid of the fab.
 std::vector<std::string> off_the_grid(const ResultFiles& f) {
   std::vector<std::string> out;
+  // The study's own surface may lie beside the space, and is then as the file has it.
+  if (f.result.build && f.result.build->made.unit.empty()) return out;
   for (const SheetRow& row : sheet_rows(f)) {
     const auto found = std::find_if(f.study.variables.begin(), f.study.variables.end(),
                                     [&](const Variable& v) { return v.path == row.path; });

@@ -7,7 +7,6 @@
 
 #include "base/text.h"
 #include "base/units.h"
-#include "design/families.h"
 #include "metrics/shown.h"
 #include "report/decision.h"
 #include "report/recommendation.h"
@@ -292,7 +291,7 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
     const std::vector<double> values = problem.space().value(d.unit);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const Variable& v = study.variables[i];
-      out += " | " + (is_shown(d.design, v) ? variable_text(v, values[i]) : std::string());
+      out += " | " + (is_shown(problem, d.design, i) ? variable_text(v, values[i]) : std::string());
     }
     for (std::size_t k = 0; k < objectives.size(); ++k) {
       out += fmt::format(" | {}",
@@ -329,12 +328,10 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
   return out + ".\n";
 }
 
-bool is_shown(const Design& design, const Variable& variable) {
-  if (!variable.path.starts_with("texture.") || variable.is_kind()) return true;
-  if (variable.is_levels() || !facts(design.texture).relief.present)
-    return facts(design.texture).relief.present;
-  Design own = design;
-  return !path_in(number_fields(own), variable.path).empty();
+bool is_shown(const StudyProblem& problem, const Design& design, std::size_t variable) {
+  const Variable& v = problem.study().variables[variable];
+  if (!v.path.starts_with("texture.") || v.is_kind()) return true;
+  return facts(design.texture).relief.present && problem.space().acts(design, variable);
 }
 
 std::vector<LimitValue> limit_values(const StudyProblem& problem, const FinalDesign& design) {

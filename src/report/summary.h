@@ -19,8 +19,9 @@ std::string run_summary(const ResultFiles& files);
 // The finalists as a table for people.
 std::string result_table(const Study& study, const OptimiseResult& result);
 
-// Whether a variable says something of a design: of a flat one no measure of a texture does.
-bool is_shown(const Design& design, const Variable& variable);
+// Whether a variable says something of a design: of a flat one no measure of a texture does, nor
+// another kind's own number.
+bool is_shown(const StudyProblem& problem, const Design& design, std::size_t variable);
 // The limits of the study and what a confirmed design has of them; empty where that failed.
 std::vector<LimitValue> limit_values(const StudyProblem& problem, const FinalDesign& design);
 

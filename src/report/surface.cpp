@@ -77,11 +77,14 @@ std::string parameter_table(const ArealParameters& a) {
   return aligned_table(rows, 3);
 }
 
+bool knows_any(const KnownBand& band) { return band.longest >= band.shortest * (1 - 1e-9); }
+
 std::string spectrum_table(const SurfaceView& view) {
   std::string out = fmt::format(
-      "wavelengths that this map can know: {:.4g} um (a quarter of its shorter side) to {:.4g} nm "
-      "({})\n",
-      1e6 * view.band.longest, 1e9 * view.band.shortest,
+      "wavelengths that this map can know: {}{:.4g} um (a quarter of its shorter side) {} "
+      "{:.4g} nm ({})\n",
+      knows_any(view.band) ? "" : "none, ", 1e6 * view.band.longest,
+      knows_any(view.band) ? "to" : "is less than", 1e9 * view.band.shortest,
       view.band.by_tip ? fmt::format("a tip of {:.3g} nm", 1e9 * view.tip) : "two pixels");
   std::vector<std::vector<std::string>> rows{{"um", "C(q) um^4", ""}};
   for (const SpectrumRing& ring : view.spectrum) {
@@ -195,11 +198,12 @@ std::string surfaces_text(const SurfacesView& view) {
       {"map", "um wide", "pixel nm", "Sa nm", "Sq nm", "Sdq", "knows um", "to nm", "ended by"}};
   for (const SurfaceView& map : view.maps) {
     const Grid& g = map.scan.map.grid;
-    rows.push_back(
-        {map.file, fmt::format("{:.4g}", 1e6 * g.lx), fmt::format("{:.4g}", 1e9 * g.dx()),
-         fmt::format("{:.4g}", 1e9 * map.areal.sa), fmt::format("{:.4g}", 1e9 * map.areal.sq),
-         fmt::format("{:.3g}", map.areal.sdq), fmt::format("{:.4g}", 1e6 * map.band.longest),
-         fmt::format("{:.4g}", 1e9 * map.band.shortest), map.band.by_tip ? "tip" : "pixels"});
+    rows.push_back({map.file, fmt::format("{:.4g}", 1e6 * g.lx),
+                    fmt::format("{:.4g}", 1e9 * g.dx()), fmt::format("{:.4g}", 1e9 * map.areal.sa),
+                    fmt::format("{:.4g}", 1e9 * map.areal.sq), fmt::format("{:.3g}", map.areal.sdq),
+                    knows_any(map.band) ? fmt::format("{:.4g}", 1e6 * map.band.longest) : "nothing",
+                    knows_any(map.band) ? fmt::format("{:.4g}", 1e9 * map.band.shortest) : "-",
+                    map.band.by_tip ? "tip" : "pixels"});
   }
   out += '\n' + aligned_table(rows, 1);
   if (view.joint.empty()) return out + "\nno wavelength is known by any of the maps\n";

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "config/describe.h"
+#include "geometry/texture.h"
 #include "report/json.h"
 #include "report/run_numbers.h"
 
@@ -24,6 +25,12 @@ std::string unit_of(const Study& study, const std::string& path) {
   }
   for (const Variable& v : study.variables) {
     if (v.path == path) return v.unit;
+    for (std::size_t i = 0; v.is_kind() && i < v.choices.size(); ++i) {
+      Texture texture = default_texture(static_cast<std::size_t>(v.choices[i]));
+      for (const NumberField& field : number_fields(texture, "texture")) {
+        if (field.path == path) return field.unit;
+      }
+    }
   }
   return "";
 }

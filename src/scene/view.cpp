@@ -72,7 +72,8 @@ void fields(FieldVisitor& v, View& s) {
            {"black", "none"}, s.gloss_backing);
   v.choice({"lattices",
             "theory of arrays. by_period: effective medium, rigorous, phase screen; rigorous: the "
-            "Fourier modal method up to 3 um (seconds); scalar: never that one, periods "
+            "Fourier modal method, of holes and pillars up to 2 um, of lines up to 6 um (seconds); "
+            "scalar: never that one, periods "
             "between are refused"},
            {"by_period", "rigorous", "scalar"}, s.lattices);
   v.list({"films", "flat films between the dielectric and the glass, the one on the glass first"},

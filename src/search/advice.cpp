@@ -29,8 +29,8 @@ FinalDesign best_without_texture(const StudyProblem& problem, const OptimiseResu
 }  // namespace
 
 std::vector<std::size_t> changed_finish(const StudyProblem& problem, const OptimiseResult& r) {
-  const std::vector<double> own = problem.space().value(problem.space().unit_of_study()),
-                            best = problem.space().value(best_of(r).unit);
+  const std::vector<double>& own = problem.space().own_values();
+  const std::vector<double> best = problem.space().value(best_of(r).unit);
   std::vector<std::size_t> out;
   for (std::size_t k = 0; k < own.size(); ++k) {
     if (!problem.study().variables[k].path.starts_with("texture.") && own[k] != best[k])
@@ -63,7 +63,7 @@ Advice advice_of(const StudyProblem& problem, const OptimiseResult& r) {
     return Advice::Texture;
   if (!r.flat_before)
     return changed_finish(problem, r).empty() ? Advice::LeaveFlat : Advice::Finish;
-  const FinalDesign own = flat_surface(problem, problem.space().unit_of_study(), *r.flat_before);
+  const FinalDesign own = flat_surface(problem, problem.space().own_surface(), *r.flat_before);
   return beats(r.flat ? *r.flat : best_of(r).confirmed, own) ? Advice::Finish : Advice::LeaveFlat;
 }
 
@@ -75,7 +75,7 @@ FinalDesign recommended_design(const StudyProblem& problem, const OptimiseResult
       return best_of(r);
     case Advice::LeaveFlat:
       if (r.flat_before)
-        return flat_surface(problem, problem.space().unit_of_study(), *r.flat_before);
+        return flat_surface(problem, problem.space().own_surface(), *r.flat_before);
       break;
     case Advice::Finish:
       break;

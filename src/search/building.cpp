@@ -207,12 +207,9 @@ class Building {
       made.confirmed = recommended_.confirmed;
     } else {
       const double seconds = run_.seconds_of_designs(1, Stage::Rounding);
-      const auto next = run_.replay.next();
-      const bool recorded = next && next->stage == Stage::Rounding && next->flat == made.flat;
-      const bool goes_on =
-          begun_ ? recorded ||
-                       (!run_.replay.finished(Stage::Rounding, made.flat) && run_.fits(seconds))
-                 : run_.begin(RunPart::Rounding, Stage::Rounding, made.flat, seconds);
+      const bool goes_on = begun_
+                               ? run_.goes_on(Stage::Rounding, made.flat, seconds)
+                               : run_.begin(RunPart::Rounding, Stage::Rounding, made.flat, seconds);
       if (!goes_on) return false;
       begun_ = true;
       made.confirmed =
@@ -233,8 +230,9 @@ class Building {
 }  // namespace
 
 BuiltDesign built_of(Run& run, const FinalDesign& recommended) {
-  return run.study.search.rounding > 0 ? Building(run, recommended).find()
-                                       : BuiltDesign{recommended, false};
+  // The study's own surface beside the space stays as its file says.
+  const bool moves = run.study.search.rounding > 0 && !recommended.unit.empty();
+  return moves ? Building(run, recommended).find() : BuiltDesign{recommended, false};
 }
 
 }  // namespace papilla::search

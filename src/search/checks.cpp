@@ -67,24 +67,25 @@ void pick(Run& run) {
 }
 
 // What of the gain is the texture's and what the finish's: the best surface without its texture,
-// and the study's own surface without texture where the search changed more than the texture.
+// where there is one, and the study's own surface without texture where the search changed more.
 void compare_with_flat(Run& run) {
   const auto keep = [&](std::optional<Score>& answered, std::optional<Score>& unanswered,
                         const Point& unit) {
     Score score = run.replay.scores({unit}, Stage::Confirm, true, run.confirm_seconds).front();
     (score.ok ? answered : unanswered) = std::move(score);
   };
-  const Point own = run.problem.space().unit_of_study();
-  const Point& best = run.result.finalists[run.result.best].unit;
-  const bool finish_differs = !changed_finish(run.problem, run.result).empty();
+  const FinalDesign& best = run.result.finalists[run.result.best];
+  const bool textured = facts(run.study.design.texture).relief.present ||
+                        facts(best.design.texture).relief.present,
+             finish_differs = !changed_finish(run.problem, run.result).empty();
   const double seconds = run.seconds_of_designs(1, Stage::Confirm);
-  if (!run.begin(RunPart::Flat, Stage::Confirm, true, seconds)) return;
-  keep(run.result.flat, run.result.flat_unanswered, best);
+  if ((!textured && !finish_differs) || !run.begin(RunPart::Flat, Stage::Confirm, true, seconds))
+    return;
+  if (textured) keep(run.result.flat, run.result.flat_unanswered, best.unit);
   if (!finish_differs) return;
-  const auto next = run.replay.next();
-  const bool recorded = next && next->stage == Stage::Confirm && next->flat;
-  if (recorded || (!run.replay.finished(Stage::Confirm, true) && run.fits(seconds)))
-    keep(run.result.flat_before, run.result.flat_before_unanswered, own);
+  if (!textured || run.goes_on(Stage::Confirm, true, seconds))
+    keep(run.result.flat_before, run.result.flat_before_unanswered,
+         run.problem.space().own_surface());
   else
     run.cut(RunPart::Flat, 1, 2);
 }
@@ -132,8 +133,7 @@ void check(Run& run) {
   check_stability(run, [&](double left) { step(1, left, RunPart::Flat); });
   pick(run);
   FinalDesign& best = result.finalists[result.best];
-  if (facts(run.study.design.texture).relief.present || facts(best.design.texture).relief.present)
-    compare_with_flat(run);
+  compare_with_flat(run);
   step(1, 0, RunPart::Rounding);
   if (best.confirmed.ok) {
     const FinalDesign recommended = recommended_design(run.problem, result);

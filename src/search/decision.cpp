@@ -297,10 +297,7 @@ std::vector<bool> on_front_of_belief(const StudyProblem& problem,
 PickRule decision_rule(const StudyProblem& problem, const std::string& rule) {
   std::vector<std::string> names;
   for (const StudyObjective& o : problem.objectives()) names.push_back(o.name);
-  const PickRule asked = read_pick_rule(rule, names, problem.driven());
-  const bool own = rule.empty() || asked.kind == PickRule::Kind::Number;
-  if (own && names.size() == 1) return {PickRule::Kind::Objective, 0};
-  return own ? read_pick_rule("", names, problem.driven()) : asked;
+  return decided_rule(rule, names, problem.driven());
 }
 
 Decision decide(const StudyProblem& problem, const std::vector<FinalDesign>& finalists,

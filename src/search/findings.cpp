@@ -57,10 +57,10 @@ std::vector<AtBound> variables_at_bound(const StudyProblem& problem, const Point
     if (!problem.space().cube().dimensions[k].choices.empty() || variable.high <= variable.low ||
         (!upper && best[k] > kAtBound))
       continue;
-    // Measures of a texture that is not there lie nowhere.
-    const std::string path = path_in(known, variable.path);
-    if (path.empty() || (variable.path.starts_with("texture.") &&
-                         !facts(part_at(design.texture, path)).relief.present))
+    // Measures of a texture that is not there lie nowhere, nor do those of another kind.
+    if (!problem.space().acts(design, k) ||
+        (variable.path.starts_with("texture.") &&
+         !facts(part_at(design.texture, path_in(known, variable.path))).relief.present))
       continue;
     const double room = room_beyond(design, variable, upper);
     AtBound at{k, upper, upper ? variable.high : variable.low, room <= 0, 0, {}};

@@ -34,6 +34,14 @@ PickRule read_pick_rule(const std::string& rule, const std::vector<std::string>&
                   rule, names));
 }
 
+PickRule decided_rule(const std::string& rule, const std::vector<std::string>& objectives,
+                      bool driven) {
+  const PickRule asked = read_pick_rule(rule, objectives, driven);
+  const bool own = rule.empty() || asked.kind == PickRule::Kind::Number;
+  if (own && objectives.size() == 1) return {PickRule::Kind::Objective, 0};
+  return own ? read_pick_rule("", objectives, driven) : asked;
+}
+
 // Eq. search.14
 std::vector<ObjectiveRange> objective_ranges(const std::vector<PickCandidate>& front) {
   std::vector<ObjectiveRange> out;
@@ -87,12 +95,21 @@ std::size_t pick_design(const std::string& text, const std::vector<PickCandidate
 
 namespace {
 
+// The choice of a run that decided over belief by this rule; empty: it did not.
+std::string decided_design(const nlohmann::json& run, const std::string& rule,
+                           const PickCandidate& like) {
+  const std::string best = run.value("/decision/best"_json_pointer, std::string());
+  if (best.empty()) return {};
+  const bool driven = like.worst.has_value();
+  const bool same = read_pick_rule(rule, like.names, driven) ==
+                    decided_rule(run.value("pick", std::string()), like.names, driven);
+  return same ? best : "";
+}
+
 // Of the knee of a run that decided over belief; empty: it did not, or did not say them.
-std::vector<ObjectiveRange> decided_ranges(const Folder& results,
+std::vector<ObjectiveRange> decided_ranges(const nlohmann::json& run,
                                            const std::vector<std::string>& objectives) {
   std::vector<ObjectiveRange> out;
-  if (!results.has("run.json")) return out;
-  const auto run = nlohmann::json::parse(results.read("run.json"));
   const auto ranges = run.value("/decision/ranges"_json_pointer, nlohmann::json::object());
   for (const std::string& name : objectives) {
     if (!ranges.contains(name)) return {};
@@ -135,7 +152,12 @@ std::string picked_design(const Folder& results, const std::string& rule) {
       folders.push_back(folder);
     }
     reading = "run.json";
-    if (!front.empty()) ranges = decided_ranges(results, front[0].names);
+    if (!front.empty() && results.has("run.json")) {
+      const auto run = nlohmann::json::parse(results.read("run.json"));
+      const std::string decided = decided_design(run, rule, front[0]);
+      if (std::find(folders.begin(), folders.end(), decided) != folders.end()) return decided;
+      ranges = decided_ranges(run, front[0].names);
+    }
   } catch (const nlohmann::json::exception& e) {
     throw InputError(fmt::format("{}: {} is damaged: {}", results.path(), reading, e.what()));
   }

@@ -27,11 +27,17 @@ struct PickRule {
   };
   Kind kind = Kind::Worst;
   std::size_t index = 0;  // of the objective; of the design, from 0
+
+  bool operator==(const PickRule&) const = default;
 };
 // "worst" (or empty, where there is a drive; "knee" where not), "knee", the beginning of an
 // objective's name as "mean(modulation)", or "3" for front/03. Throws InputError for anything else.
 PickRule read_pick_rule(const std::string& rule, const std::vector<std::string>& objectives,
                         bool driven);
+// By what a run with that rule decides over belief: a number of a design decides nothing, and one
+// objective alone decides by itself.
+PickRule decided_rule(const std::string& rule, const std::vector<std::string>& objectives,
+                      bool driven);
 
 // Of an objective over the designs of a front: the least value, and what its values are divided by.
 struct ObjectiveRange {
@@ -50,7 +56,8 @@ std::size_t pick_design(const std::string& rule, const std::vector<PickCandidate
                         std::vector<ObjectiveRange> ranges = {});
 
 // The folder of the design picked from a folder that `papilla optimize` wrote: "best" for an empty
-// rule, else "front/03"; the knee with the ranges that the run decided with. Throws InputError.
+// rule, else "front/03". By the rule that the run decided with over belief, its choice; by another
+// rule, the numbers of the fit, for the knee with the ranges of that decision. Throws InputError.
 std::string picked_design(const Folder& results, const std::string& rule);
 // Its design.toml.
 std::string picked_design_file(const std::string& results, const std::string& rule);

@@ -150,6 +150,7 @@ std::string StudyProblem::identity() const {
   for (const Variable& v : study_.variables) {
     out += fmt::format("{} {:a} {:a}", v.path, v.low, v.high);
     for (double c : v.choices) out += fmt::format(" {:a}", c);
+    for (const Excluded& e : v.excluded) out += fmt::format(" without {:a} {:a}", e.from, e.to);
     out += '\n';
   }
   for (const StudyObjective& o : goals_.objectives)

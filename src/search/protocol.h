@@ -29,13 +29,16 @@ enum class Stage {
   Steps,        // what the fit of the fingers leaves open
   Done,         // asks nothing: the run came to its end, whatever a clock cut of it
 };
+// That the search of a run which is done had nothing more to try; 0: it ended otherwise, or a
+// version that did not say it wrote the record.
+inline constexpr std::size_t kSearchExhausted = 1;
 inline constexpr std::size_t kStages = static_cast<std::size_t>(Stage::Done) + 1;
 
 struct TaskRequest {
   Stage stage = Stage::Search;
-  std::size_t task = 0;  // of the study; of Stability the variant
+  std::size_t task = 0;  // of the study; of Stability the variant; of Done kSearchExhausted or 0
   bool flat = false;     // the design without its relief
-  Point unit;
+  Point unit;            // empty: the study's own surface, where that lies outside the space
   // What the task may cost, as plans price it [s]: fewer skins and pixels than the stage's where a
   // run is short of time; 0: anything.
   double most_seconds = 0;

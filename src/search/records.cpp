@@ -13,8 +13,11 @@ bool finite(const std::vector<double>& values) {
 }
 
 bool possible(const StudyProblem& problem, const SearchProblem& search, const TaskRequest& r) {
-  if (r.unit.size() != search.space.size() || !finite(r.unit)) return false;
+  // The study's own surface may lie outside the space.
+  const bool own = r.stage == Stage::Confirm && r.flat && r.unit == problem.space().own_surface();
+  if (!own && (r.unit.size() != search.space.size() || !finite(r.unit))) return false;
   if (!std::isfinite(r.most_seconds) || r.most_seconds < 0) return false;
+  if (r.stage == Stage::Done) return r.task <= kSearchExhausted;
   const std::size_t tasks =
       r.stage == Stage::Stability ? stability_variants(problem).size() : problem.tasks().size();
   return r.task < tasks;

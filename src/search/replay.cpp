@@ -118,9 +118,15 @@ void Replay::record(const TaskRequest& request, const Bytes& payload) {
   ++next_;
 }
 
-void Replay::end() {
-  const TaskRequest done{Stage::Done, 0, false, Point(search_.space.size(), 0.0)};
+void Replay::end(bool exhausted) {
+  const TaskRequest done{Stage::Done, exhausted ? kSearchExhausted : 0, false,
+                         Point(search_.space.size(), 0.0)};
   if (!beside_journal_ && !replaying()) record(done, {});
+}
+
+bool Replay::exhausted() const {
+  return !requests_.empty() && requests_.back().stage == Stage::Done &&
+         requests_.back().task == kSearchExhausted;
 }
 
 std::size_t Replay::designs() const {

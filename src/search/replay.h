@@ -58,8 +58,12 @@ class Replay {
   // From now on answers depend on the picked design: they are asked anew, beside the journal, when
   // the earlier run picked another.
   void picked() { picked_ = true; }
-  // The run is at its end: continued, it asks nothing more.
-  void end();
+  bool beside_journal() const { return beside_journal_; }
+  // The run is at its end: continued, it asks nothing more. exhausted: the search ended since its
+  // method had nothing more to try.
+  void end(bool exhausted);
+  // Whether the earlier run came to its end and said so of its search.
+  bool exhausted() const;
 
   // Designs at a time that keep everyone busy; no more, so that a kill loses little.
   std::size_t designs() const;

@@ -111,7 +111,7 @@ StageSeconds run_stages(Run& run) {
     confirm(run);
     at.confirm = run.clock.seconds();
     check(run);
-    run.replay.end();
+    run.replay.end(run.result.end == SearchEnd::Exhausted);
   } catch (const WorkStopped&) {
     run.result.interrupted = true;
     for (double* end : {&at.search, &at.narrow, &at.confirm})
@@ -259,10 +259,21 @@ double Run::seconds_from(RunPart on) const {
 
 bool Run::begin(RunPart part, Stage stage, bool flat, double seconds) {
   clock.enter(part);
-  if (replay.has(stage, flat)) return true;
-  if (!replay.finished(stage, flat) && fits(seconds)) return true;
+  const bool recorded = !replay.beside_journal() && replay.has(stage, flat);
+  if (recorded || may_ask(stage, flat, seconds)) return true;
   cut(part, 0, 1);
   return false;
+}
+
+bool Run::goes_on(Stage stage, bool flat, double seconds) const {
+  const auto next = replay.next();
+  const bool recorded =
+      !replay.beside_journal() && next && next->stage == stage && next->flat == flat;
+  return recorded || may_ask(stage, flat, seconds);
+}
+
+bool Run::may_ask(Stage stage, bool flat, double seconds) const {
+  return (replay.beside_journal() || !replay.finished(stage, flat)) && fits(seconds);
 }
 
 void Run::cut(RunPart part, std::size_t done, std::size_t of) {

@@ -53,7 +53,7 @@ struct SkinnedScore {
 };
 
 struct FinalDesign {
-  Point unit;
+  Point unit;         // empty: the study's own surface, where that lies outside the space
   bool flat = false;  // the surface without its texture, which `unit` still has
   Design design;
   Score searched, confirmed;

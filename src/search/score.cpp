@@ -147,17 +147,16 @@ LimitedNumbers limited_numbers(const TaskAnswer& a) {
           a.limited_errors};
 }
 
-// What constraints are about: the bad side over tasks. With a limit on the yield the ends of the
-// scatter are the yield's.
+// What constraints are about, and the worst modulation: the bad side over tasks. With a limit on
+// the yield the ends of the scatter are the yield's.
 void add_extremes(Score& score, const Scoring& s, const std::vector<TaskAnswer>& answers) {
   std::vector<LimitedNumbers> all;
-  score.worst = kInfinity;
-  for (std::size_t t = 0; t < answers.size(); ++t) {
-    all.push_back(limited_numbers(answers[t]));
-    if (s.tasks[t].weight > 0) score.worst = std::min(score.worst, answers[t].worst);
-  }
+  for (const TaskAnswer& a : answers) all.push_back(limited_numbers(a));
   if (s.law.size() > 0) score.by_task = all;
   if (s.goals.yield) all.resize(s.nominal);
+  score.worst = kInfinity;
+  for (std::size_t t = 0; t < all.size(); ++t)
+    score.worst = std::min(score.worst, answers[t].worst);
   LimitedNumbers bad = bad_side(s, all);
   score.oxide_margin = bad.oxide_margin;
   score.looks = std::move(bad.looks);
@@ -173,7 +172,6 @@ LimitedNumbers bad_side(const Scoring& s, const std::vector<LimitedNumbers>& of_
     out.limited.push_back(o.maximise ? kInfinity : -kInfinity);
   out.limited_errors.assign(out.limited.size(), 0);
   for (std::size_t t = 0; t < of_tasks.size(); ++t) {
-    if (s.tasks[t].weight <= 0) continue;
     const LimitedNumbers& a = of_tasks[t];
     out.oxide_margin = std::min(out.oxide_margin, a.oxide_margin);
     for (std::size_t j = 0; j < out.limited.size(); ++j) {

@@ -41,7 +41,7 @@ struct Score {
   // Behind the errors, one per objective; only of confirmed designs. Eq. accuracy.14
   std::vector<ErrorSamples> samples;
   std::vector<double> residuals;  // of targets: weighted distances, one per task and humidity
-  // Over tasks of some weight:
+  // Over tasks; with a limit on the yield over those as designed:
   double worst = 0;                     // the lowest modulation; 0: undriven
   double oxide_margin = 0;              // the smallest; infinite without a field
   std::vector<Look> looks;              // where the study asks for them: the worst counts
@@ -60,7 +60,7 @@ struct Scoring {
   const std::vector<double>& humidity_weights;  // empty: all alike
 };
 
-// The bad side of each number over tasks of some weight, among the first ones.
+// The bad side of each number over the first tasks.
 LimitedNumbers bad_side(const Scoring& scoring, const std::vector<LimitedNumbers>& of_tasks);
 
 // From one answer per task; the yield is asked for besides.

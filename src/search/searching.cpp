@@ -134,7 +134,7 @@ class Searching {
 
 namespace {
 
-// A search that went on to its confirmation is over; a journal does not say why.
+// A search that went on to its confirmation is over; of why the journal knows one reason alone.
 void take_from_journal(Run& run) {
   const JudgedDesigns before = run.replay.searched_before();
   for (std::size_t i = 0; i < before.size(); ++i)
@@ -142,11 +142,12 @@ void take_from_journal(Run& run) {
                        {before.evaluations[i].outcome, before.worst[i]});
   const bool all = run.result.evaluations >= run.search.evaluations;
   const bool refused = run.history.size() >= 10 * static_cast<std::size_t>(run.search.evaluations);
-  run.result.end = all                   ? SearchEnd::Budget
-                   : refused             ? SearchEnd::Refusals
-                   : run.options.finish  ? SearchEnd::Asked
-                   : run.clock.limited() ? SearchEnd::Clock
-                                         : SearchEnd::Before;
+  run.result.end = all                      ? SearchEnd::Budget
+                   : refused                ? SearchEnd::Refusals
+                   : run.replay.exhausted() ? SearchEnd::Exhausted
+                   : run.options.finish     ? SearchEnd::Asked
+                   : run.clock.limited()    ? SearchEnd::Clock
+                                            : SearchEnd::Before;
 }
 
 }  // namespace

@@ -41,8 +41,9 @@ Number variable(const StudyProblem& problem, std::size_t k) {
     if (v.is_kind() || v.is_levels()) return value;
     Design design = problem.space().design(e.unit);
     const std::string path = path_in(number_fields(design), v.path);
-    const bool absent = path.empty() || (path.starts_with("texture.") &&
-                                         !facts(part_at(design.texture, path)).relief.present);
+    const bool absent =
+        !problem.space().acts(design, k) ||
+        (path.starts_with("texture.") && !facts(part_at(design.texture, path)).relief.present);
     return absent ? std::nullopt : std::optional(value);
   };
 }

@@ -6,6 +6,12 @@
 #include "design/families.h"
 
 namespace papilla::search {
+namespace {
+
+constexpr double kUnitsRound = 1e-9;  // values that differ by less are one, written in two units
+
+}  // namespace
+
 DesignSpace::DesignSpace(const Study& study) : study_(study) {
   for (const Variable& v : study.variables) {
     const std::string section = v.path.substr(0, v.path.find('.'));
@@ -16,6 +22,15 @@ DesignSpace::DesignSpace(const Study& study) : study_(study) {
     cube_.dimensions.push_back(d);
   }
   own_value_ = cube_.value(unit_of_study());
+  const std::vector<double> said = values_of_study();
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    const Variable& v = study.variables[i];
+    const double scale = std::max({std::abs(said[i]), std::abs(own_value_[i]), v.high - v.low});
+    const bool fixed = v.choices.empty() ? v.high <= v.low : v.choices.size() == 1;
+    if (fixed || std::abs(said[i] - own_value_[i]) <= kUnitsRound * scale) continue;
+    own_value_[i] = said[i];
+    surface_inside_ = surface_inside_ && v.path.starts_with("texture.");
+  }
   cube_.collapse = [this](const Point& u) { return collapsed(u); };
 }
 
@@ -25,6 +40,13 @@ bool DesignSpace::acts(const std::vector<NumberField>& known, std::size_t variab
   return !path.empty() &&
          (path == own || std::none_of(study_.variables.begin(), study_.variables.end(),
                                       [&](const Variable& v) { return v.path == path; }));
+}
+
+bool DesignSpace::acts(const Design& design, std::size_t variable) const {
+  const Variable& v = study_.variables[variable];
+  if (v.is_kind() || v.is_levels()) return true;
+  Design copy = design;
+  return acts(number_fields_in(copy, sections_), variable);
 }
 
 Design DesignSpace::design_of(const std::vector<double>& v) const {
@@ -44,8 +66,10 @@ Design DesignSpace::design_of(const std::vector<double>& v) const {
   return out;
 }
 
-Point DesignSpace::unit_of_study() const {
-  Point value;
+Point DesignSpace::unit_of_study() const { return cube_.unit(values_of_study()); }
+
+std::vector<double> DesignSpace::values_of_study() const {
+  std::vector<double> value;
   Design copy = study_.design;
   const std::vector<NumberField> known = number_fields_in(copy, sections_);
   for (const Variable& v : study_.variables) {
@@ -59,7 +83,7 @@ Point DesignSpace::unit_of_study() const {
                                    : *find_number_field(known, path).value);
     }
   }
-  return cube_.unit(value);
+  return value;
 }
 
 bool DesignSpace::has_features() const {
@@ -87,7 +111,6 @@ Point DesignSpace::collapsed(const Point& unit) const {
     if (is_depth(v) && v.choices.empty() && v.low <= 0 && value[i] < kLeastDepth) value[i] = v.low;
   }
   Design d = design(cube_.unit(value));
-  const Point& own = own_value_;
   const auto offered = [](const Variable& v, double choice) {
     return std::find(v.choices.begin(), v.choices.end(), choice) != v.choices.end();
   };
@@ -116,7 +139,7 @@ Point DesignSpace::collapsed(const Point& unit) const {
     const Variable& v = study_.variables[i];
     if (!v.path.starts_with("texture.") || v.is_kind() || v.is_levels()) continue;
     if (!acts(known, i) || (!decides_relief(v.path) && !has_relief(path_in(known, v.path))))
-      value[i] = own[i];
+      value[i] = own_value_[i];
   }
   return cube_.unit(value);
 }

@@ -24,19 +24,31 @@ class DesignSpace {
 
   const Space& cube() const { return cube_; }
   std::size_t size() const { return cube_.size(); }
-  std::vector<double> value(const Point& unit) const { return cube_.value(unit); }
+  std::vector<double> value(const Point& unit) const {
+    return unit.empty() ? own_value_ : cube_.value(unit);
+  }
   Point unit(const std::vector<double>& value) const { return cube_.unit(value); }
   Point snapped(const Point& unit) const { return cube_.snapped(unit); }
 
-  Design design(const Point& unit) const { return design_of(cube_.value(unit)); }
+  Design design(const Point& unit) const { return design_of(value(unit)); }
   Design design_of(const std::vector<double>& values) const;  // SI, exactly these
-  Point unit_of_study() const;                                // the study's own design
+  // The study's own design, or the nearest to it where its file has values outside the space.
+  Point unit_of_study() const;
+  // What the study's file says of the variables, SI, inside the space or not. Of a number that its
+  // space fixes that value; the middle of the range where its own design has no such number.
+  const std::vector<double>& own_values() const { return own_value_; }
+  // The point of the study's own finish and drive. Empty where they lie outside the space: value()
+  // and design() of the empty point are of own_values().
+  Point own_surface() const { return surface_inside_ ? unit_of_study() : Point{}; }
   std::vector<Point> starts() const;
   // All corners of the first eight variables, where small features and borders of limits lie, and a
   // thousand places drawn inside.
   std::vector<Point> corners_and_places(RandomStream& random) const;
   // The same surface without its texture, where the space holds that and the point has a texture.
   std::optional<Point> flattened(const Point& unit) const;
+  // The variable is one of this design's numbers: by its own key, or by another kind's word for one
+  // that no other variable names. Of a number without effect at depth 0 too.
+  bool acts(const Design& design, std::size_t variable) const;
 
   // What the response depends on more directly than on the variables: the open share of a lattice,
   // as a length over the period, where both lengths vary. For SearchProblem::features.
@@ -52,10 +64,12 @@ class DesignSpace {
   // The variable has an effect on a design with these numbers: it names one of them, or another
   // kind's word for one that no other variable names.
   bool acts(const std::vector<NumberField>& known, std::size_t variable) const;
+  std::vector<double> values_of_study() const;  // as its file has them
 
   const Study& study_;
   Space cube_;
-  Point own_value_;                    // of the study's own design
+  std::vector<double> own_value_;      // of the study's own design
+  bool surface_inside_ = true;         // what of it is not the texture's lies inside the space
   std::vector<std::string> sections_;  // of the variables
 };
 

@@ -31,6 +31,8 @@ struct Run {
   bool fits(double seconds) const { return seconds <= clock.left(wanted()); }
   // Whether to begin a part that is done whole or not at all: as the journal says, else the clock.
   bool begin(RunPart part, Stage stage, bool flat, double seconds);
+  // Whether to do one more of a part that has begun, so too.
+  bool goes_on(Stage stage, bool flat, double seconds) const;
   // Where the clock cut a part.
   void cut(RunPart part, std::size_t done, std::size_t of);
   double price(Stage stage, double most_seconds) const;  // task_price, computed once
@@ -55,6 +57,10 @@ struct Run {
   std::string unmet_pick;  // why the rule of options.pick fits no design of the front
 
  private:
+  // Whether to ask what no record answers: not of a stage that the journal goes beyond, which the
+  // clock cut, but of a design that the earlier run did not pick.
+  bool may_ask(Stage stage, bool flat, double seconds) const;
+
   mutable std::map<std::pair<Stage, double>, double> prices_;
   mutable double told_ =
       0;  // when the folder was last told of the progress [s since the run began]

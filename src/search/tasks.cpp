@@ -54,6 +54,7 @@ std::vector<StudyTask> study_tasks(const Study& study) {
   const std::vector<Scenario> scenarios =
       study.scenarios.empty() ? std::vector<Scenario>{Scenario{}} : study.scenarios;
   for (const Scenario& scenario : scenarios) {
+    if (scenario.weight <= 0) continue;  // it counts for nothing
     for (const Finger& finger : fingers) {
       tasks.push_back({scenario.name.empty() ? finger.name : finger.name + ", " + scenario.name,
                        scenario.weight, finger, scenario.set});
@@ -71,8 +72,7 @@ std::vector<StudyTask> study_tasks(const Study& study) {
       }
     }
   }
-  if (std::none_of(tasks.begin(), tasks.end(), [](const StudyTask& t) { return t.weight > 0; }))
-    throw InputError("scenarios: at least one weight above 0 is needed");
+  if (tasks.empty()) throw InputError("scenarios: at least one weight above 0 is needed");
   check_frequency(study, tasks);
   return tasks;
 }

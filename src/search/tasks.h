@@ -22,8 +22,9 @@ struct StudyTask {
   bool nominal() const { return scattered < 0; }
 };
 
-// Those as designed first, then of each of them every scatter low and high. Throws InputError when
-// no task has a weight, or when a searched drive.frequency is felt by none.
+// Those as designed first, then of each of them every scatter low and high; none of a scenario
+// without weight. Throws InputError when no scenario has one, or when a searched drive.frequency is
+// felt by none.
 std::vector<StudyTask> study_tasks(const Study& study);
 
 // The design of a task: finger, scenario, then the end of the scatter, within the range that the

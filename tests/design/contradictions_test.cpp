@@ -80,6 +80,9 @@ TEST(Contradictions, OfTheFingerAreItsWaterItsLoadAndItsSkin) {
   EXPECT_EQ(with([](Design& d) { d.finger.skin.cutoff = d.finger.skin.roll_off; }),
             "finger.skin.cutoff: expected a shorter wavelength than roll_off\n");
   EXPECT_EQ(with([](Design& d) { d.finger.skin.cutoff = 0.99 * d.finger.skin.roll_off; }), "");
+  EXPECT_EQ(
+      with([](Design& d) { d.finger.skin.roll_off = 30e-6, d.finger.skin.cutoff = 20e-6; }),
+      "finger.skin.cutoff: expected at most the 12 um that rms is of: no wave would be left\n");
   // A measured skin has no spectrum, and the closure that asks for one none of it.
   EXPECT_EQ(with([](Design& d) {
               d.finger.skin.map = "skin.gsf";

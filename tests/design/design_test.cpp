@@ -280,6 +280,12 @@ TEST(Study, ProblemsAcrossFieldsAreLocated) {
   EXPECT_EQ(problems_of(head + "[objective]\nmaximise = \"mean(modulation)\"\n[design_space]\n"
                                "\"surface.contact_angle\" = [\"2 deg\", \"1 deg\"]\n"),
             ":5:27: design_space.surface.contact_angle: expected low < high");
+  EXPECT_EQ(problems_of(head + "[objective]\nmaximise = \"mean(modulation)\"\n"
+                               "risk = [\"mean\", \"worst\"]\n"),
+            ":4:8: objective.risk: expected one text, got 2");
+  EXPECT_EQ(problems_of(head + "[objective]\nmaximise = \"mean(modulation)\"\n"
+                               "risk = [\"worst\"]\n"),
+            "");
   EXPECT_EQ(problems_of(head + "[constraints]\nmin_hole = \"1 V\"\n"),
             ":3:12: constraints.min_hole: expected a length, got \"1 V\"");
   EXPECT_EQ(problems_of(head + "[constraints]\nmin_whole = \"1 um\"\n"),

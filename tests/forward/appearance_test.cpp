@@ -105,6 +105,11 @@ TEST(Appearance, WarnsWhereTheScreenIsRough) {
   EXPECT_NE(warning(1.9e-6, 0.5e-6).find("features of 1.9 um are few wavelengths"),
             std::string::npos);
   EXPECT_NE(warning(2.1e-6, 1.1e-6).find("deep against its width"), std::string::npos);
+  HoleArray wide{.period = 2.5e-6, .diameter = 1.2e-6, .depth = 100e-9};
+  View asked;
+  asked.lattices = LatticeTheory::Rigorous;
+  EXPECT_NE(appearance(Texture{wide}, glass_of(kIndex), asked).warning.find("is not followed"),
+            std::string::npos);
   EXPECT_NE(appearance(Texture{RandomRough{.rms = 300e-9, .roll_off = 1e-6}}, glass_of(kIndex), {})
                 .warning.find("too steep for a thin screen"),
             std::string::npos);

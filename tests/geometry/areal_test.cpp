@@ -269,6 +269,19 @@ TEST(Areal, APlaneHasOneSlopeAndItsArea) {
   }
 }
 
+// A profile has the slope along it.
+TEST(Areal, OfASingleRowOrColumnTheSlopeIsAlongIt) {
+  const auto plane = [](double x, double y) { return 0.3 * x - 0.4 * y; };
+  for (const auto& [grid, slope] :
+       {std::pair{Grid{90, 1, 9e-6, 0.1e-6}, 0.3}, {Grid{1, 90, 0.1e-6, 9e-6}, 0.4}}) {
+    const ArealParameters p = areal_parameters(map_of(grid, plane));
+    EXPECT_NEAR(p.sdq, slope, 1e-9);
+    EXPECT_NEAR(p.sdr, std::sqrt(1 + slope * slope) - 1, 1e-9);
+    EXPECT_FALSE(p.sampling_limited);
+  }
+  EXPECT_EQ(areal_parameters(map_of({1, 1, 1e-6, 1e-6}, plane)).sdq, 0);
+}
+
 // A step of a quarter of all heights in a pixel is more than its slope can be told from.
 TEST(Areal, AStepOfAQuarterIsLimitedByItsPixels) {
   for (const auto& [step, limited] : {std::pair{0.24, false}, {0.26, true}}) {

@@ -134,6 +134,35 @@ TEST(Scan, WhatIsNoNumberIsFilledWhenAskedAndCountsForNoPlane) {
   EXPECT_NEAR(flat.map(0, 0), (h(0, 4) + h(1, 4) + h(2, 4) + h(3, 4) + h(4, 4)) / 5, 1e-14);
 }
 
+// An array and an export keep their plane: the mean that is taken away is of what is a number.
+TEST(Scan, AMadeMapIsFilledAboutTheMeanOfItsNumbers) {
+  Heightmap h = map_of(kGrid, [](double x, double) { return 1e-6 + 0.01 * x; });
+  h(50, 40) = kNan;
+  const std::string array = temporary("holed.npy"), exported = temporary("holed.gsf");
+  write_npy(array, h);
+  write_gsf(exported, h, {.comment = "a design"});
+  for (const ScanSource& source :
+       {ScanSource{array, kGrid.lx, true}, ScanSource{exported, 0, true}}) {
+    const Scan scan = read_scan(source);
+    EXPECT_TRUE(scan.changes.made);
+    EXPECT_EQ(scan.changes.filled, 1u);
+    // The one that is missing is not in the mean of 23,999; its neighbours are even about it.
+    const double missing = 0.01 * (kGrid.x(50) - 10e-6), mean = -missing / 23999;
+    for (const int ix : {0, 49, 50, 199})
+      EXPECT_NEAR(scan.map(ix, 40), 0.01 * (kGrid.x(ix) - 10e-6) - mean, 3e-13) << ix;
+    EXPECT_NEAR(scan.changes.rms, 0.01 * 20e-6 / std::sqrt(12.0), 1e-11);
+  }
+}
+
+TEST(Scan, HeightsWhoseSquaresAreNoNumbersAreRefused) {
+  const std::string file = temporary("huge.npy");
+  write_npy(file, map_of(kGrid, [](double x, double) { return x < 10e-6 ? 1e308 : -1e308; }));
+  for (const bool as_is : {false, true}) {
+    const std::string why = refusal_of([&] { read_scan({file, kGrid.lx, false, as_is}); });
+    EXPECT_NE(why.find("a height of 1e+308 m is no surface's"), std::string::npos) << why;
+  }
+}
+
 TEST(Scan, AFifthWithoutNumbersIsTheMost) {
   for (const auto& [share, taken] : {std::pair{0.199, true}, {0.201, false}}) {
     Heightmap h = even_shares();
@@ -236,14 +265,40 @@ TEST(MiddleOfAMap, IsTheMapItselfWhereItIsKnown) {
       ASSERT_NEAR(cut(ix, iy), 1e-3 * (6.5e-6 + part.x(ix)) - 2e-3 * (1e-6 + part.y(iy)), 1e-14);
     }
   }
-  // The border's value holds beyond the centres of the last pixels.
+  // Beyond the centres of the last pixels come those of the other side, here three eighths of the
+  // way to them.
   const Grid whole{800, 480, 20e-6, 9e-6};
   const Heightmap fine = patch_of_map(source, 9e-6, {}, whole);
-  EXPECT_EQ(fine(0, 0), same(0, 0));
-  EXPECT_EQ(fine(799, 479), same(199, 119));
+  const auto mixed = [](double near, double far) { return (5 * near + 3 * far) / 8; };
+  EXPECT_NEAR(fine(0, 0),
+              mixed(mixed(same(0, 0), same(199, 0)), mixed(same(0, 119), same(199, 119))), 1e-20);
+  EXPECT_NEAR(fine(799, 479),
+              mixed(mixed(same(199, 119), same(0, 119)), mixed(same(199, 0), same(0, 0))), 1e-20);
 }
 
-// On another patch than its own a map that repeats begins at its corner, as often as it takes.
+// One period on finer pixels than its own: from the last to the first it is the same curve.
+TEST(MiddleOfAMap, OneThatRepeatsHasNoLedgeAtItsBorder) {
+  const Grid own{16, 16, 12e-6, 12e-6}, fine{64, 64, 12e-6, 12e-6};
+  const std::string file = temporary("ledge.gsf");
+  write_gsf(file,
+            map_of(own,
+                   [](double x, double y) {
+                     return 1e-7 * (std::sin(2 * kPi * x / 12e-6) + std::sin(2 * kPi * y / 12e-6));
+                   }),
+            {});
+  const double steepest = 1e-7 * 2 * std::sin(kPi / 16) / 4;  // a pixel of 16, in four steps
+  for (const bool as_is : {true, false}) {
+    const Heightmap h = patch_of_map({file, 0, false, as_is}, 12e-6, {}, fine);
+    for (int i = 0; i < 64; ++i) {
+      EXPECT_NEAR(h(0, i) - h(63, i), steepest, 1e-3 * steepest) << as_is << i;
+      EXPECT_NEAR(h(i, 0) - h(i, 63), steepest, 1e-3 * steepest) << as_is << i;
+      EXPECT_NEAR(h(1, i) - h(0, i), steepest, 1e-3 * steepest) << as_is << i;
+    }
+  }
+}
+
+// On another patch than its own a map that repeats begins at its corner, as often as it takes,
+// whether that is said of it or seen by its borders.
 TEST(MiddleOfAMap, OneThatRepeatsIsTiledOverOtherSides) {
   const Grid grid{60, 60, 6e-6, 6e-6}, oblong{120, 180, 12e-6, 18e-6};
   const auto lattice = [](double x, double y) {
@@ -251,11 +306,47 @@ TEST(MiddleOfAMap, OneThatRepeatsIsTiledOverOtherSides) {
   };
   const std::string file = temporary("tile.gsf");
   write_gsf(file, map_of(grid, lattice), {});
-  const Heightmap h = patch_of_map({file, 0, false, true}, 6e-6, {}, oblong);
-  for (int iy = 0; iy < oblong.ny; ++iy) {
-    for (int ix = 0; ix < oblong.nx; ++ix)
-      ASSERT_NEAR(h(ix, iy), lattice(oblong.x(ix), oblong.y(iy)), 1e-14) << ix << " " << iy;
+  for (const bool as_is : {true, false}) {
+    const Heightmap h = patch_of_map({file, 0, false, as_is}, 6e-6, {}, oblong);
+    for (int iy = 0; iy < oblong.ny; ++iy) {
+      for (int ix = 0; ix < oblong.nx; ++ix)
+        ASSERT_NEAR(h(ix, iy), lattice(oblong.x(ix), oblong.y(iy)), 1e-14) << ix << " " << iy;
+    }
   }
+  EXPECT_NE(
+      refusal_of([&] {
+        patch_of_map({file, 0}, 6e-6, {}, {60, 80, 6e-6, 8e-6});
+      })
+          .find("6 x 6 um is smaller than the 6 x 8 um of the stack that it is a part of, and "
+                "they are no whole number of it"),
+      std::string::npos);
+}
+
+// In a stack of a longer period the sides are those of the stack: what the map does not hold is
+// not made up.
+TEST(MiddleOfAMap, OneThatIsSmallerThanItsStackIsRefused) {
+  const std::string file = temporary("narrow.gsf");
+  const Grid own{100, 200, 20e-6, 40e-6};
+  write_gsf(file,
+            map_of(own,
+                   [](double x, double y) {
+                     return 3e-8 * std::sin(2 * kPi * x / 7.3e-6) +
+                            2e-8 * std::sin(2 * kPi * y / 9.1e-6);
+                   }),
+            {});
+  const auto part = [&](double side, const MapPlace& at) {
+    return refusal_of([&] { patch_of_map({file, 0}, 12e-6, at, {64, 64, side, side}); });
+  };
+  EXPECT_EQ(part(20e-6, {}), "");
+  EXPECT_EQ(part(25e-6, {}), file +
+                                 ": 20 x 40 um is smaller than the 25 x 25 um of the stack that it "
+                                 "is a part of; give a larger map, or the other parts a shorter "
+                                 "period");
+  EXPECT_EQ(part(18e-6, {1e-6, 11e-6}), "");
+  EXPECT_NE(part(18e-6, {2e-6, 0})
+                .find("the patch of 18 x 18 um round (2, 0) um reaches 1 um "
+                      "beyond the map"),
+            std::string::npos);
 }
 
 TEST(MiddleOfAMap, ALargerPixelIsTheMeanOverItsArea) {

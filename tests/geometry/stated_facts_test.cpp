@@ -222,6 +222,39 @@ TEST(Contradictions, OfNumbersAreSaidInTheirUnits) {
   EXPECT_EQ(said_of({RandomRough{.roll_off = 1e-6, .cutoff = 1e-6}}),
             "cutoff: must be shorter than the roll-off wavelength\n");
   EXPECT_EQ(said_of({RandomRough{.roll_off = 1e-6, .cutoff = 0.999e-6}}), "");
+  EXPECT_EQ(said_of({RandomRough{.roll_off = 1e-3, .cutoff = 12e-6}}), "");
+  EXPECT_EQ(said_of({RandomRough{.roll_off = 1e-3, .cutoff = 12.1e-6}}),
+            "cutoff: 12.1 um is longer than the 12 um that rms is of; no wave would be left\n");
+}
+
+// Rims begin radius tan(angle / 2) beyond their edge: 1 um at 90 deg, on lands of 2 um. Of pillars
+// the land is their top.
+TEST(Contradictions, OfRimsThatLeaveNoLandSayTheLargestRadius) {
+  const auto refused = [](const std::string& radius) {
+    return "edge_radius: rims of " + radius +
+           " nm leave nothing of the land of 2 um between two edges; less than 1000 nm\n";
+  };
+  for (const auto& [radius, why] :
+       {std::pair{0.999e-6, std::string()}, {1.001e-6, refused("1001")}, {3e-6, refused("3000")}}) {
+    EXPECT_EQ(said_of({HoleArray{
+                  .period = 5e-6, .diameter = 3e-6, .wall_angle = kPi / 2, .edge_radius = radius}}),
+              why);
+    EXPECT_EQ(said_of({PillarArray{
+                  .period = 9e-6, .diameter = 2e-6, .wall_angle = kPi / 2, .edge_radius = radius}}),
+              why);
+    EXPECT_EQ(said_of({Grating{
+                  .period = 3e-6, .width = 1e-6, .wall_angle = kPi / 2, .edge_radius = radius}}),
+              why);
+  }
+  // A slope of 45 deg is rounded over 0.414 of the radius. Of a flat surface nothing is.
+  EXPECT_EQ(said_of({HoleArray{
+                .period = 5e-6, .diameter = 3e-6, .wall_angle = kPi / 4, .edge_radius = 2.4e-6}}),
+            "");
+  EXPECT_NE(said_of({HoleArray{
+                .period = 5e-6, .diameter = 3e-6, .wall_angle = kPi / 4, .edge_radius = 2.42e-6}}),
+            "");
+  EXPECT_EQ(said_of({HoleArray{.period = 5e-6, .diameter = 3e-6, .depth = 0, .edge_radius = 9e-6}}),
+            "");
 }
 
 // The longest period is a whole number of each other one, to a millionth.

@@ -82,6 +82,23 @@ TEST(Gsf, SidesArePicometresToKilometres) {
     EXPECT_NE(of(x, y).find("expected 1 pm to 1 km"), std::string::npos) << x;
 }
 
+// The format does not ask for sides: pixels are squares then, of the width that is given.
+TEST(Gsf, WithoutSidesItHasThoseThatAreGiven) {
+  const std::string path = temporary("no_sides.gsf");
+  for (const char* said : {"", "XReal = 6\n", "YReal = 4\n"}) {
+    write_bytes(path, gsf(std::string("XRes = 3\nYRes = 2\n") + said));
+    const Heightmap h = read_heightmap(path, 6);
+    EXPECT_DOUBLE_EQ(h.grid.lx, 6) << said;
+    EXPECT_DOUBLE_EQ(h.grid.ly, 4) << said;
+    EXPECT_EQ(h(2, 0), 5) << said;
+    EXPECT_NE(refusal_of([&] {
+                read_heightmap(path);
+              }).find("the file does not say its lateral size; give it"),
+              std::string::npos)
+        << said;
+  }
+}
+
 TEST(Gsf, AnotherWidthThanItsOwnIsRefused) {
   const std::string path = temporary("own.gsf");
   write_bytes(path, gsf(kSides));
@@ -104,7 +121,6 @@ TEST(Gsf, WhatIsMissingOrNoNumberIsNamed) {
            {gsf(sides, 5) + "abc", "the data are cut off"},  // a byte less than needed
            {gsf(sides, 8), "8 bytes more than 3 x 2 pixels have"},
            {gsf("YRes = 2\nXReal = 6\nYReal = 5\n"), "no XRes in the header"},
-           {gsf("XRes = 3\nYRes = 2\nXReal = 6\n"), "no YReal in the header"},
            {gsf("XRes = 3\nYRes = 2\nXReal = 0\nYReal = 5\n"), "XReal is not a positive number"},
            {gsf("XRes = 3\nYRes = 2\nXReal = 6\nYReal = -5\n"), "YReal is not a positive number"},
            {gsf("XRes = 3\nYRes = 2\nXReal = inf\nYReal = 5\n"), "XReal is not a positive number"},

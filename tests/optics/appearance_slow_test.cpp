@@ -35,6 +35,22 @@ TEST(Appearance, OfRoughGlassIsThatOfItsMap) {
             OpticsRegime::Flat);
 }
 
+// Grooves below holes are no lines.
+TEST(Appearance, OfGroovesAndHolesIsThatOfTheirMap) {
+  Grating grooves;
+  grooves.period = 10e-6, grooves.width = 3e-6, grooves.depth = 20e-9;
+  HoleArray holes;
+  holes.period = 10e-6, holes.diameter = 4.8e-6, holes.depth = 300e-9;
+  Stack stack;
+  stack.parts = {Texture{grooves}, Texture{holes}};
+  EXPECT_FALSE(sections(Texture{stack}));
+  const double own = appearance(Texture{stack}, glass_of(1.46), {}).haze;
+  const Heightmap map = generate(Texture{stack}, {480, 480, 40e-6, 40e-6});
+  EXPECT_NEAR(own, phase_screen(map, {1.46, 1}).haze, 0.05 * own);
+  stack.parts[1] = Texture{grooves};
+  EXPECT_TRUE(sections(Texture{stack}));
+}
+
 TEST(Appearance, OfAMeasuredSurfaceAndOfAStackIsThatOfTheirMaps) {
   const Texture rough{RandomRough{.rms = 60e-9}};
   const Heightmap map = generate(rough, patch_grid(rough, 256, 60e-6));
@@ -53,6 +69,9 @@ TEST(Appearance, OfAMeasuredSurfaceAndOfAStackIsThatOfTheirMaps) {
   measured.patch = 12e-6;
   EXPECT_NE(appearance(Texture{measured}, glass_of(1.46), {}).warning.find("is short"),
             std::string::npos);
+  View wide;
+  wide.cone = 10 * kPi / 180;  // which 12 um resolve
+  EXPECT_EQ(appearance(Texture{measured}, glass_of(1.46), wide).warning, "");
 }
 
 }  // namespace

@@ -230,7 +230,7 @@ TEST(Bayesian, TheFirstDesignGrowsWithTheVariables) {
   EXPECT_EQ(first(1, 9), 6u);
 }
 
-// Four choices are four designs: after them nothing new is left, and what is asked is one of them.
+// Four choices are four designs.
 TEST(Bayesian, OfFewChoicesAllAreAskedFirst) {
   SearchProblem p;
   p.space.dimensions = {{0, 0, {1, 2}}, {0, 0, {5, 7}}};
@@ -239,6 +239,22 @@ TEST(Bayesian, OfFewChoicesAllAreAskedFirst) {
   std::vector<Point> asked = searcher->ask();
   std::sort(asked.begin(), asked.end());
   EXPECT_EQ(asked, (std::vector<Point>{{0.25, 0.25}, {0.25, 0.75}, {0.75, 0.25}, {0.75, 0.75}}));
+}
+
+// After them nothing new is left, whatever came of them.
+TEST(Bayesian, EndsWhereEveryChoiceIsKnown) {
+  SearchProblem p;
+  p.space.dimensions = {{0, 0, {1, 2}}, {0, 0, {5, 7}}};
+  p.evaluations = 30;
+  for (const bool fails : {false, true}) {
+    const auto searcher = make_searcher({"bayesian", ""}, p);
+    std::vector<Evaluation> known;
+    for (const Point& u : searcher->ask())
+      known.push_back({u, fails ? Outcome{} : outcome({u[0] + 2 * u[1]})});
+    ASSERT_EQ(known.size(), 4u);
+    searcher->tell(known);
+    EXPECT_TRUE(searcher->ask().empty()) << fails;
+  }
 }
 
 // Twelve drafts: eight spread at once, then rounds of at most eight where they say that the best

@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "optim/mpi.h"
 #include "optim/worker.h"
 #include "tests/temporary.h"
 
@@ -203,6 +204,19 @@ TEST(Team, ThatIsStoppedAnswersWhatItHasBegun) {
   EXPECT_FALSE(is_there("2"));
   EXPECT_TRUE(team->answer({"2"}, &stop).empty());
   EXPECT_EQ(team->answer({"2"}).front().bytes, "2!");
+}
+
+// Of PMIx the environment has no number of ranks: a rank whose number nobody says works alone.
+TEST(Launcher, OfPmixIsKnownWithTheNumberOfRanksThatSlurmSays) {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK", "PMI_SIZE", "PMI_RANK"})
+    if (std::getenv(name)) GTEST_SKIP() << "launched by MPI";
+  ::setenv("PMIX_RANK", "1", 1);
+  EXPECT_EQ(launched_rank(), 0);
+  ::setenv("SLURM_STEP_NUM_TASKS", "2", 1);
+  EXPECT_EQ(launched_rank(), 1);
+  ::unsetenv("PMIX_RANK");
+  EXPECT_EQ(launched_rank(), 0);
+  ::unsetenv("SLURM_STEP_NUM_TASKS");
 }
 
 }  // namespace

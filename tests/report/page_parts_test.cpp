@@ -349,8 +349,10 @@ TEST(Pages, OfARunHoldItsDesignsAndTables) {
   const Json response{{"points", list_of(point)}, {"plan", {{"seconds", 8}}}};
   Json other_point = point, other_shown = shown;
   other_point["F_off"] = other_shown["F_off"] = 20;
-  const Json task{
-      {"name", "a finger"}, {"response", response}, {"flat", {{"points", list_of(other_point)}}}};
+  const Json task{{"name", "a finger"},
+                  {"weight", 0.25},
+                  {"response", response},
+                  {"flat", {{"points", list_of(other_point)}}}};
   const Json objectives{{"o", {{"value", 2}, {"maximise", true}}}};
   Json metrics{{"title", "a run"},         {"variables", {{"v", 1}}},
                {"objectives", objectives}, {"feasible", true},
@@ -387,20 +389,29 @@ TEST(Pages, OfARunHoldItsDesignsAndTables) {
   EXPECT_EQ(best["plan"], (Json{{"seconds", 8}}));
   for (const char* key : {"section", "measures", "heights", "toml"})
     EXPECT_EQ(best.erase(key) + front.erase(key), 2u) << key;
-  Json expected{{"variables", {{"v", 1}}},
-                {"objectives", objectives},
-                {"worst_modulation", 0.25},
-                {"feasible", true},
-                {"flat", {{"a", 3}}},
-                {"tasks", list_of({{"name", "a finger"}, {"points", list_of(shown)}})}};
+  Json expected{
+      {"variables", {{"v", 1}}},
+      {"objectives", objectives},
+      {"worst_modulation", 0.25},
+      {"feasible", true},
+      {"flat", {{"a", 3}}},
+      {"tasks", list_of({{"name", "a finger"}, {"weight", 0.25}, {"points", list_of(shown)}})}};
   EXPECT_EQ(front, expected);
   expected["tasks"][0]["flat"] = list_of(other_shown);
   expected["plan"] = {{"seconds", 8}};
   EXPECT_EQ(best, expected);
-  // Of another design of the front.
+  EXPECT_FALSE(page.data.contains("picked"));
+  // Of another design of the front, whose build sheet the run has not.
   metrics["title"] = "the second";
   write_bytes(folder + "/front/02/metrics.json", metrics.dump());
-  EXPECT_NE(report_page(folder, "2").find("<title>the second</title>"), std::string::npos);
+  const ReadPage picked(report_page(folder, "2"));
+  EXPECT_NE(picked.text.find("<title>the second</title>"), std::string::npos);
+  EXPECT_EQ(picked.data["picked"], "front/02");
+  EXPECT_NE(picked.text.find("This page shows design 02, which was picked for it."),
+            std::string::npos);
+  // What is picked is what the run recommends anyway.
+  write_bytes(folder + "/run.json", R"({"recommendation": "Build it.", "design": "front/02"})");
+  EXPECT_EQ(report_page(folder, "2"), report_page(folder));
   fs::remove(folder + "/plan.txt");
   EXPECT_EQ(refusal_of([&] { report_page(folder); }),
             folder + " has no plan.txt: not the folder of a finished `papilla optimize`");

@@ -191,7 +191,7 @@ TEST(JsonSchema, WishesAreMetricsOverHumidity) {
   EXPECT_EQ(property("objective", "risk"),
             (Json{{"anyOf",
                    {{{"type", "string"}},
-                    {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 1}}}}}));
+                    {{"type", "array"}, {"items", {{"type", "string"}}}, {"maxItems", 1}}}}}));
 }
 
 TEST(JsonSchema, ConstraintsHaveTheirUnitsOrAreOfMetrics) {

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/constants.h"
@@ -19,6 +21,7 @@
 #include "report/run_json.h"
 #include "report/sheet.h"
 #include "report/stated_number.h"
+#include "report/yield.h"
 #include "tests/report/same_json.h"
 #include "tests/support/golden.h"
 #include "tests/support/without_belief.h"
@@ -47,13 +50,13 @@ Score score(double mean, double variation, double worst) {
 }
 
 struct Searched {
-  Study study = holes();
+  Study study;
   StudyProblem problem{study};
   JudgedDesigns history;
   OptimiseResult result;
   std::string folder, pick;
 
-  Searched() {
+  explicit Searched(Study of = holes()) : study(std::move(of)) {
     result.method = "nsga2", result.why = "two objectives";
     result.evaluations = result.asked = 40;
     result.refused = 3, result.failures = 2;
@@ -390,6 +393,148 @@ TEST(BuildSheet, SaysWhatItRestsOn) {
       std::string::npos);
 }
 
+// A layer may be made otherwise than the surface says.
+TEST(BuildSheet, TellsHowEachLayerIsMade) {
+  Searched run;
+  Surface& surface = run.result.finalists[0].design.surface;
+  const auto film = [&] { return as_read(grounds(run.files()).front()); };
+  surface.process = FilmProcess::Planar;
+  surface.dielectric[0].process = LayerProcess::Conformal;
+  EXPECT_EQ(film(), "Film: 500 nm of SiO2, grown equally thick on every wall (conformal).");
+  surface.process = FilmProcess::Conformal;
+  surface.dielectric[0].process = LayerProcess::Planar;
+  EXPECT_EQ(film(),
+            "Film: 500 nm of SiO2 are laid, 300 nm are taken away where the texture is deep, 200 "
+            "nm stay there.");
+  surface.dielectric.push_back(surface.dielectric[0]);
+  surface.dielectric[1].process = LayerProcess::Directional;
+  surface.dielectric[1].material = "HfO2", surface.dielectric[1].thickness = 20e-9;
+  EXPECT_EQ(film(),
+            "Film: 500 nm of SiO2, on a flat electrode, with the texture cut into it (planar); 20 "
+            "nm of HfO2, laid from above, thin on steep walls (directional).");
+}
+
+// A voltage that is found is what is built; a modulation at the amplitude of the study says nothing
+// of it.
+TEST(BuildSheet, OfAVoltageThatIsFoundNamesIt) {
+  Study study = holes();
+  study.objective = {};
+  study.objective.minimise = {parse_metric("worst(voltage_for(modulation = 0.3))")};
+  Searched run(study);
+  const auto volts = [](double voltage) {
+    Score s = score(0, 0, 0.007);
+    s.values = {voltage}, s.errors = {2};
+    return s;
+  };
+  run.result.finalists[0].confirmed = volts(147.5), run.result.finalists[1].confirmed = volts(170);
+  run.result.flat = volts(160), run.result.flat_before = volts(165);
+  run.result.sensitivity.clear();
+  const std::string lead = as_read(recommendation(run.files()));
+  EXPECT_TRUE(lead.starts_with("Build design 01")) << lead;
+  EXPECT_EQ(lead.find("modulation is"), std::string::npos) << lead;
+  EXPECT_EQ(lead.find("worst modulation"), std::string::npos) << lead;
+  const std::string said = as_read(join_names(grounds(run.files()), "\n")),
+                    drive =
+                        "the voltage that is asked for (worst(voltage_for(modulation = 0.3)) 147.5 "
+                        "± 2 V) at 5 kHz";
+  EXPECT_NE(said.find("under 0.2 N, driven with " + drive + "."), std::string::npos) << said;
+  EXPECT_EQ(said.find("not felt"), std::string::npos) << said;
+  const auto json = as_read(run_json(run.files()));
+  EXPECT_EQ(json["beside"].back()["text"], drive);
+  EXPECT_EQ(json["compared"]["names"].size(), 1u);
+  EXPECT_EQ(json["compared"]["rows"][0]["values"].size(), 1u);
+}
+
+TEST(BuildSheet, ADirectVoltageHasNoFrequency) {
+  Searched run;
+  run.result.finalists[0].design.drive.waveform = Waveform::Dc;
+  EXPECT_NE(as_read(join_names(grounds(run.files()), "\n"))
+                .find("under 0.2 N, driven with 200 V, a direct voltage."),
+            std::string::npos);
+  EXPECT_EQ(as_read(run_json(run.files()))["beside"].back()["text"], "200 V, a direct voltage");
+}
+
+TEST(BuildSheet, TheStateThatWasNotTriedIsNotTheOneThatWas) {
+  Study study = holes();
+  study.design.finger.state = FingerState::Natural;
+  const Searched run(study);
+  const std::string said = as_read(join_names(grounds(run.files()), "\n"));
+  EXPECT_NE(said.find("Judged for natural fingers, not degreased at "), std::string::npos) << said;
+  EXPECT_NE(said.find("Another state of the skin (degreased) was not tried on it."),
+            std::string::npos)
+      << said;
+}
+
+double kind_of(const char* name) {
+  const auto& kinds = texture_kinds();
+  return static_cast<double>(std::find(kinds.begin(), kinds.end(), name) - kinds.begin());
+}
+
+// Holes and pillars that have a height of their own beside the depth of the holes.
+Study holes_or_pillars() {
+  Study study = holes();
+  const double hole = kind_of("hole_array"), pillar = kind_of("pillar_array");
+  study.variables.push_back({"texture.height", "nm", 100e-9, 900e-9, {}});
+  study.variables.push_back(
+      {"texture.type", "", std::min(hole, pillar), std::max(hole, pillar), {hole, pillar}});
+  return study;
+}
+
+TEST(BuildSheet, LeavesOutTheNumbersOfAnotherKind) {
+  const Study study = holes_or_pillars();
+  const StudyProblem problem(study);
+  const Searched like;
+  OptimiseResult result = like.result;
+  FinalDesign& pillars = result.finalists[0];
+  pillars.unit =
+      problem.space().unit({5e-6, 3e-6, 300e-9, 70 * kPi / 180, 546e-9, kind_of("pillar_array")});
+  pillars.design = problem.space().design(pillars.unit);
+  ASSERT_EQ(texture_name(pillars.design.texture), "pillar_array");
+  result.finalists = {pillars};
+  result.sensitivity = {{.variable = 4,
+                         .change = {},
+                         .share = {},
+                         .step = 40e-9,
+                         .down = {30e-9, Drift::End::Loss},
+                         .up = {20e-9, Drift::End::Loss}}};
+  const std::string table = result_table(study, result);
+  EXPECT_NE(table.find("| front/01 | 5 um | 3 um |  | 70 deg | 546 nm | pillar_array |"),
+            std::string::npos)
+      << table;
+  const std::vector<SheetRow> rows =
+      sheet_rows({like.folder, study, problem, like.history, result, like.pick});
+  const auto height = std::find_if(
+      rows.begin(), rows.end(), [](const SheetRow& row) { return row.path == "texture.height"; });
+  ASSERT_NE(height, rows.end());
+  EXPECT_NEAR(height->value, 546e-9, 1e-15);
+  ASSERT_TRUE(height->down);
+  EXPECT_EQ(height->down->most, 30e-9);
+}
+
+TEST(YieldText, AToleranceOfACompetingKindHasItsUnit) {
+  Study study = holes_or_pillars();
+  study.variables.erase(study.variables.end() - 2);
+  study.scatter = {{"texture.height", 20e-9}};
+  EXPECT_EQ(tolerance_text(study, 0), "± 20 nm");
+}
+
+// Each step is from the one before it: the study's own surface, which is rounded, comes last.
+TEST(RunSteps, RoundTheSurfaceThatIsRecommended) {
+  Searched run;
+  run.result.flat = run.result.flat_before = score(0.5, 0.3, 0.25);
+  ASSERT_EQ(advice_of(run.problem, run.result), Advice::LeaveFlat);
+  run.result.build = BuiltDesign{run.result.finalists[0], false};
+  run.result.build->made.unit.front() += 1e-3;
+  run.result.build->made.design.texture = Texture{};
+  run.result.build->made.confirmed = score(0.49, 0.31, 0.24);
+  std::vector<std::string> surfaces;
+  const auto json = as_read(run_json(run.files()));
+  for (const auto& step : json["steps"]) surfaces.push_back(step["surface"].get<std::string>());
+  EXPECT_EQ(surfaces, (std::vector<std::string>{"flat, finish and drive of the best",
+                                                "flat, finish and drive of the study",
+                                                "flat, on the grid of the fab"}));
+}
+
 // The best flat surface of a run stands beside the texture, not only that under the texture's film.
 TEST(BuildSheet, ComparesWithTheBestFlatSurfaceOfTheRunToo) {
   Searched run;
@@ -600,6 +745,7 @@ TEST(RunFolder, ItsTablesHaveEachNumberUnderItsHead) {
               "flat");
   expect_same(metrics["tasks"],
               nlohmann::json::array({{{"name", run.problem.tasks()[0].name},
+                                      {"weight", 1},
                                       {"response", {{"a", 1}}},
                                       {"flat", {{"b", 2}}}}}),
               "tasks");

@@ -105,6 +105,12 @@ TEST(SurfaceReport, WavesBeyondTheKnownBandAreMarked) {
       << surface_text(v);
   v.band.by_tip = true;
   EXPECT_NE(surface_text(v).find("to 500 nm (a tip of 25 nm)\n"), std::string::npos);
+  // A profile, or a few pixels.
+  v.band = {0.25e-6, 0.5e-6, false};
+  EXPECT_NE(surface_text(v).find("wavelengths that this map can know: none, 0.25 um (a quarter of "
+                                 "its shorter side) is less than 500 nm (two pixels)\n"),
+            std::string::npos)
+      << surface_text(v);
 }
 
 // 48 bins of 6.67 nm: half of all heights in the first, an eighth in each of four; 72 columns of

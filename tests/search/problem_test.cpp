@@ -94,6 +94,15 @@ TEST(Tasks, KeepWhatTheStudyVariesOfTheFinger) {
   EXPECT_EQ(task_design(study, design, tasks[0]).finger.load, 0.3);
 }
 
+// What counts for nothing is not evaluated, so that it cannot fail either.
+TEST(Tasks, OfAScenarioWithoutWeightAreNone) {
+  Study study = oxide_study();
+  study.population.resize(1);
+  study.population[0].name = "one";
+  study.scenarios = {{"new", 0, {}}, {"worn", 2, {{"surface.contact_angle", 1.2}}}};
+  EXPECT_EQ(names_of(study_tasks(study)), Names{"one, worn"});
+}
+
 TEST(Tasks, WithoutAPopulationTheDesignsOwnFingerIsTheOnlyOne) {
   Study study = oxide_study();
   study.population.clear();

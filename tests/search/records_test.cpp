@@ -69,7 +69,28 @@ TEST_F(Records, OfTheStudyAreTaken) {
       a = TaskAnswer::refused(TaskStatus::Kind::Crashed, "crashed");
     })));
   }
-  EXPECT_TRUE(sound({encode(request(Stage::Done)), ""}));
+  TaskRequest done = request(Stage::Done);
+  for (const std::size_t why : {std::size_t{0}, kSearchExhausted, kSearchExhausted + 1}) {
+    done.task = why;
+    EXPECT_EQ(sound({encode(done), ""}), why <= kSearchExhausted);
+  }
+}
+
+// Without a point in the space only the study's own surface is asked of, where its file has it
+// beside the space.
+TEST(RecordsBesideTheSpace, AreOfTheStudysOwnSurfaceAlone) {
+  Study study = small_study();
+  for (const bool beside : {false, true}) {
+    if (beside) study.variables[3].low = study.design.surface.contact_angle + 0.1;
+    const StudyProblem problem(study);
+    const SearchProblem search = search_problem(problem);
+    const Bytes refused = encode(TaskAnswer::refused(TaskStatus::Kind::Crashed, "crashed"));
+    for (const bool flat : {false, true}) {
+      const TaskRequest own{Stage::Confirm, 0, flat, {}, 0};
+      EXPECT_EQ(checked_request(problem, search, {encode(own), refused}).has_value(),
+                beside && flat);
+    }
+  }
 }
 
 TEST_F(Records, WithJudgementsOfAnotherShapeAreRefused) {

@@ -250,6 +250,12 @@ TEST(RunDecisions, WhatDecidesTheResultIsInTheKeyOfTheJournal) {
       [](Study& s) { s.variables[0].low = 1e-9; },
       [](Study& s) { s.variables[0].high = 0.9e-6; },
       [](Study& s) {
+        s.variables[0].excluded = {{0.2e-6, 0.3e-6}};
+      },
+      [](Study& s) {
+        s.variables[0].excluded = {{0.2e-6, 0.4e-6}};
+      },
+      [](Study& s) {
         s.variables[1].choices = {0.8, 1.1};
       },
       [](Study& s) { std::swap(s.objective.maximise, s.objective.minimise); },

@@ -97,7 +97,7 @@ TEST(Scores, ResidualsOfATargetSumToItsSquaredDistance) {
   EXPECT_NEAR(sum, squares, 1e-12);
 }
 
-// The bad side over tasks, but not over those without weight.
+// The bad side over tasks, but of none in a scenario without weight: that is no task.
 TEST(Scores, LimitsTakeTheWorstTaskThatCounts) {
   Study study = weighted_study();
   study.scenarios.push_back({"broken", 0, {}});
@@ -107,10 +107,12 @@ TEST(Scores, LimitsTakeTheWorstTaskThatCounts) {
                        read_constraint("gloss", 70),
                        read_constraint("most_gloss", 90)};
   const StudyProblem problem(study);
-  std::vector<TaskAnswer> answers(3, answer(problem, {0.2, 0.4}));
-  const double worst[] = {0.3, 0.2, 0.01}, margin[] = {2, 3, 0.5};
-  const std::vector<double> limited[] = {{0.04, 0.3}, {0.06, 0.2}, {9, 0}};
-  for (std::size_t t = 0; t < 3; ++t) {
+  ASSERT_EQ(problem.tasks().size(), 2u);
+  EXPECT_EQ(problem.nominal_tasks(), 2u);
+  std::vector<TaskAnswer> answers(2, answer(problem, {0.2, 0.4}));
+  const double worst[] = {0.3, 0.2}, margin[] = {2, 3};
+  const std::vector<double> limited[] = {{0.04, 0.3}, {0.06, 0.2}};
+  for (std::size_t t = 0; t < 2; ++t) {
     answers[t].worst = worst[t], answers[t].oxide_margin = margin[t];
     answers[t].limited = limited[t];
     answers[t].look = Look{t == 1 ? 0.1 : 0.02, 0.9, 0.5, 0};
@@ -285,11 +287,11 @@ TEST(Slopes, EndAtTheLimitsOfTheStudy) {
 TEST(Slopes, TryThePartOfAStepThatMakesAShape) {
   Study study = default_study();
   for (Constraint& c : study.constraints) {
-    if (limit_name(c.on) == "min_wall") c.limit = 0.2e-6;
+    if (limit_name(c.on) == "min_wall") c.limit = 0.3e-6;
   }
   const StudyProblem problem(study);
   const DesignSpace& space = problem.space();
-  const Point centre = space.unit({4e-6, 3.8e-6, 300e-9, 1.1});
+  const Point centre = space.unit({4e-6, 3.7e-6, 300e-9, 1.1});
   const std::vector<SensitivityMove> moves = sensitivity_moves(problem, {centre});
   const auto period = std::find_if(moves.begin(), moves.end(), [](const SensitivityMove& m) {
     return m.variable == 0 && m.sign < 0;
@@ -374,6 +376,40 @@ TEST(Space, TheStudysOwnDesignIsItsPointAndUnknownNumbersStartInTheMiddle) {
   const std::vector<double> value = flat.space().value(flat.space().unit_of_study());
   EXPECT_NEAR(value[0], 2.5e-6, 1e-15);
   EXPECT_NEAR(value[1], study.design.surface.contact_angle, 1e-12);
+}
+
+// What the file says is the study's own, inside its space or not; a number that the space fixes has
+// that value.
+TEST(Space, KeepsTheStudysOwnSurfaceBesideIt) {
+  constexpr double kFilm = 550e-9;
+  Study study = default_study();
+  const double own = study.design.surface.contact_angle;
+  study.variables = {{"texture.depth", "nm", 0, 900e-9, {}},
+                     {"surface.contact_angle", "deg", own - 0.1, own + 0.1, {}},
+                     {"surface.dielectric.0.thickness", "nm", kFilm, kFilm, {kFilm}}};
+  const StudyProblem inside(study);
+  EXPECT_EQ(inside.space().own_surface(), inside.space().unit_of_study());
+  EXPECT_NEAR(inside.space().own_values()[1], own, 1e-12);
+  EXPECT_EQ(inside.space().own_values()[2], kFilm);
+  const auto expect_beside = [&](const Variable& angle, double nearest) {
+    study.variables[1] = angle;
+    const StudyProblem problem(study);
+    const DesignSpace& space = problem.space();
+    EXPECT_NEAR(space.value(space.unit_of_study())[1], nearest, 1e-12);
+    EXPECT_EQ(space.own_values()[1], own);
+    const Design surface = space.design(space.own_surface());
+    EXPECT_EQ(surface.surface.contact_angle, own);
+    EXPECT_EQ(surface.surface.dielectric[0].thickness, kFilm);
+    EXPECT_EQ(space.value(space.own_surface()), space.own_values());
+  };
+  const Variable range{"surface.contact_angle", "deg", own + 0.1, own + 0.3, {}};
+  expect_beside(range, own + 0.1);
+  Variable choice = range;
+  choice.choices = {own + 0.1, own + 0.3};
+  expect_beside(choice, own + 0.1);
+  Variable hollow = range;
+  hollow.low = own - 0.3, hollow.excluded = {{own - 0.2, own + 0.1}};
+  expect_beside(hollow, own + 0.1);
 }
 
 // Only a limit on the look makes a search ask for looks before it evaluates.

@@ -359,6 +359,14 @@ TEST(Pick, AFolderIsReadAsItsFront) {
   // By what belief leaves open "down" tells designs apart by far less than it seems.
   write_bytes(root + "/run.json", "{\"decision\": {\"ranges\": {\"up\": 0.1, \"down\": 9}}}");
   EXPECT_EQ(picked("knee"), "/front/01/design.toml");
+  // What the run decided over belief is its choice by that rule; by another the fit has the word.
+  write_bytes(root + "/run.json", R"({"pick": "", "decision": {"best": "front/02"}})");
+  EXPECT_EQ(picked("worst"), "/front/02/design.toml");
+  EXPECT_EQ(picked("down"), "/front/03/design.toml");
+  EXPECT_EQ(picked("1"), "/front/01/design.toml");
+  write_bytes(root + "/run.json", R"({"pick": "down", "decision": {"best": "front/01"}})");
+  EXPECT_EQ(picked("down"), "/front/01/design.toml");
+  EXPECT_EQ(picked("worst"), "/front/03/design.toml");
   write_bytes(root + "/run.json", "{\"decision\": {\"absent\": \"no belief\"}}");
   EXPECT_EQ(picked("knee"), "/front/02/design.toml");
   write_bytes(root + "/run.json", "{\"decision\": 1");

@@ -9,7 +9,9 @@
 
 #include "base/constants.h"
 #include "config/describe.h"
+#include "search/findings.h"
 #include "search/problem.h"
+#include "search/shared.h"
 #include "tests/support/without_belief.h"
 
 namespace papilla::tests::space_of_kinds_test {
@@ -55,6 +57,34 @@ TEST(SpaceOfKinds, ADesignHasTheNumbersOfItsKind) {
   // Of no depth every kind is the flat one.
   for (const char* kind : {"hole_array", "pillar_array"})
     EXPECT_EQ(texture_name(design(kind, 1e-9).texture), "flat") << kind;
+}
+
+// Pillars with a height of their own: the depth beside it is of the holes alone.
+TEST(SpaceOfKinds, AKindsOwnKeyActsInPlaceOfTheSharedOne) {
+  Study study = kinds();
+  study.variables[2].low = 100e-9;
+  study.variables.push_back({"texture.height", "nm", 100e-9, 900e-9, {}});
+  const StudyProblem problem(study);
+  const DesignSpace& space = problem.space();
+  const Point unit = space.unit({kind_of("pillar_array"), 2e-6, 100e-9, 1.0, 546e-9});
+  const Design pillars = space.design(unit),
+               holes = space.design(space.unit({kind_of("hole_array"), 2e-6, 100e-9, 1.0, 546e-9}));
+  EXPECT_NEAR(get_number(pillars, "texture.height"), 546e-9, 1e-15);
+  EXPECT_NEAR(get_number(holes, "texture.depth"), 100e-9, 1e-15);
+  for (const std::size_t everywhere : {0u, 1u, 3u}) {
+    EXPECT_TRUE(space.acts(pillars, everywhere)) << everywhere;
+    EXPECT_TRUE(space.acts(holes, everywhere)) << everywhere;
+  }
+  EXPECT_FALSE(space.acts(pillars, 2));
+  EXPECT_TRUE(space.acts(pillars, 4));
+  EXPECT_TRUE(space.acts(holes, 2));
+  EXPECT_FALSE(space.acts(holes, 4));
+  // What does not act lies on no bound and is shared by none.
+  EXPECT_TRUE(variables_at_bound(problem, unit, {}).empty());
+  JudgedDesigns history;
+  history.evaluations = {{unit, {true, "", {-0.5, 0.3}, {-1}, {}}}};
+  for (const SharedRange& range : shared_ranges(problem, history).ranges)
+    EXPECT_NE(range.name, "texture.depth");
 }
 
 TEST(SpaceOfKinds, AllFlatDesignsAreOnePoint) {

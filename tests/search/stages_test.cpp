@@ -58,12 +58,14 @@ TaskAnswer lines(const TaskRequest& r) {
 struct AnsweredRun {
   AnsweredRun(const Study& of, const std::string& folder, const Formula& formula,
               bool resume = false, const std::atomic<bool>* stop = nullptr,
-              std::function<void(const Progress&)> progress = {}, bool finish = false)
+              std::function<void(const Progress&)> progress = {}, bool finish = false,
+              const std::string& pick = "")
       : study(of),
         options{.folder = folder,
                 .resume = resume,
                 .progress = std::move(progress),
                 .stop = stop,
+                .pick = pick,
                 .finish = finish},
         run(study, options, mpi, std::make_unique<FormulaWorker>(formula, asked)) {}
   AnsweredRun(const AnsweredRun&) = delete;
@@ -78,7 +80,7 @@ struct AnsweredRun {
     } catch (const WorkStopped&) {
       return false;
     }
-    run.replay.end();
+    run.replay.end(run.result.end == SearchEnd::Exhausted);
     return true;
   }
   std::ptrdiff_t count(Stage stage, bool flat = false) const {
@@ -248,6 +250,102 @@ TEST(Stages, TheChecksSayWhatTheTextureAndTheFinishDo) {
   EXPECT_TRUE(result.build->on_grid);
 }
 
+// A textureless surface of a larger angle is the better one.
+TaskAnswer smooth(const TaskRequest& r, double angle) {
+  const double depth = r.flat ? 0 : r.unit.front();
+  TaskAnswer out;
+  const double mean = 0.8 - 0.3 * depth + 0.1 * angle, variation = 0.5 + 0.4 * depth - 0.03 * angle;
+  out.objectives = {{mean, 0.001, {mean, mean}}, {variation, 0.001, {variation, variation}}};
+  out.worst = 0.2 - 0.1 * depth;
+  out.oxide_margin = 10;
+  return out;
+}
+
+// Its file has a better finish than its space: that is what is compared with and left as it is,
+// from a journal too.
+TEST(Stages, TheStudysOwnSurfaceMayLieBesideTheSpace) {
+  Study study = evolved();
+  const double own = study.design.surface.contact_angle;
+  study.variables[1].low = own + 0.1;
+  const Formula formula = [](const TaskRequest& r) {
+    return smooth(r, r.unit.empty() ? 2 : r.unit[1]);
+  };
+  const std::string folder = fresh_folder("stages_beside");
+  for (const bool again : {false, true}) {
+    AnsweredRun a(study, folder, formula, again);
+    ASSERT_TRUE(a.whole());
+    EXPECT_EQ(a.asked.empty(), again);
+    const OptimiseResult& result = a.run.result;
+    ASSERT_TRUE(result.flat_before);
+    EXPECT_NEAR(result.flat_before->values[0], 1.0, 1e-12);
+    EXPECT_EQ(changed_finish(a.run.problem, result), (std::vector<std::size_t>{1}));
+    EXPECT_EQ(advice_of(a.run.problem, result), Advice::LeaveFlat);
+    ASSERT_TRUE(result.build);
+    EXPECT_EQ(result.build->made.design.surface.contact_angle, own);
+    EXPECT_FALSE(facts(result.build->made.design.texture).relief.present);
+    EXPECT_NEAR(result.build->made.confirmed.values[0], 1.0, 1e-12);
+    EXPECT_EQ(result.build->judged, 0u);
+    EXPECT_TRUE(result.at_bound.empty());
+    EXPECT_TRUE(result.sensitivity.empty());
+  }
+}
+
+// Of a study without texture: what its finish changes is against its own surface.
+TEST(Stages, AFlatStudyIsComparedWithItsOwnSurface) {
+  Study study = evolved();
+  study.design.texture = Texture{};
+  study.variables = {study.variables[1]};
+  AnsweredRun a(study, fresh_folder("stages_flat_study"), [](const TaskRequest& r) {
+    TaskRequest flat = r;
+    flat.flat = true;
+    return smooth(flat, r.unit[0]);
+  });
+  ASSERT_TRUE(a.whole());
+  const OptimiseResult& result = a.run.result;
+  EXPECT_FALSE(result.flat);  // there is no texture to leave out
+  ASSERT_TRUE(result.flat_before);
+  EXPECT_NEAR(result.flat_before->values[0], 0.8 + 0.1 * kOwnAngle, 1e-9);
+  EXPECT_EQ(a.count(Stage::Confirm, true), 1);
+  EXPECT_EQ(advice_of(a.run.problem, result), Advice::Finish);
+}
+
+// The deepest design, which is picked first, has a flat surface as good as itself: that is built.
+// Of another one the texture is, whose rounding no journal has.
+TEST(Stages, ARunThatIsDoneJudgesWhatIsPickedNow) {
+  constexpr double kDeep = 0.6, kShallow = 0.05;
+  const Formula formula = [](const TaskRequest& r) {
+    TaskAnswer out = lines(r);
+    if (r.flat && r.unit[0] > kDeep) out.objectives[0].value = 2, out.objectives[1].value = 0;
+    return out;
+  };
+  const std::string folder = fresh_folder("stages_picked");
+  std::size_t other = 0;
+  {
+    AnsweredRun first(evolved(), folder, formula);
+    ASSERT_TRUE(first.whole());
+    const std::vector<FinalDesign>& finalists = first.run.result.finalists;
+    EXPECT_GT(finalists[first.run.result.best].unit[0], kDeep);
+    EXPECT_TRUE(recommended_design(first.run.problem, first.run.result).flat);
+    EXPECT_EQ(first.count(Stage::Rounding, false), 0);
+    const Point own = first.run.problem.space().unit_of_study();  // on the grid already
+    while (other < finalists.size() &&
+           (finalists[other].unit[0] < kShallow || finalists[other].unit[0] > kDeep ||
+            finalists[other].unit == own))
+      ++other;
+    ASSERT_LT(other, finalists.size());
+    ASSERT_TRUE(finalists[other].on_front);
+  }
+  AnsweredRun second(evolved(), folder, formula, true, nullptr, {}, false,
+                     std::to_string(other + 1));
+  ASSERT_TRUE(second.whole());
+  EXPECT_EQ(second.run.result.best, other);
+  EXPECT_GT(second.count(Stage::Rounding), 0);
+  EXPECT_GT(second.count(Stage::Sensitivity), 0);
+  ASSERT_TRUE(second.run.result.build);
+  EXPECT_FALSE(second.run.result.build->made.flat);
+  EXPECT_FALSE(second.run.result.sensitivity.empty());
+}
+
 // Both objectives are best in the middle of the space, on no place of the grid.
 TaskAnswer bowl(const TaskRequest& r) {
   const double depth = r.flat ? 0 : r.unit[0], angle = r.unit[1];
@@ -381,6 +479,26 @@ TEST(Stages, ARunThatIsDoneAsksNothingMore) {
   const auto last = again.run.replay.next();
   ASSERT_TRUE(last);
   EXPECT_EQ(last->stage, Stage::Done);
+}
+
+// Of two choices there are two designs; a journal knows why the search ended.
+TEST(Stages, ASearchThatKnowsEveryChoiceIsExhausted) {
+  Study study = two_variables();
+  const double own = study.design.surface.contact_angle;
+  study.variables = {study.variables[1]};
+  study.variables[0].choices = {own, own + 0.2};
+  study.search.evaluations = 9;
+  const Formula formula = [](const TaskRequest& r) {
+    return lines({r.stage, r.task, false, {0.5, r.unit[0]}});
+  };
+  const std::string folder = fresh_folder("stages_exhausted");
+  for (const bool again : {false, true}) {
+    AnsweredRun a(study, folder, formula, again);
+    ASSERT_TRUE(a.whole());
+    EXPECT_EQ(a.run.result.end, SearchEnd::Exhausted);
+    EXPECT_EQ(a.run.result.evaluations, 2);
+    EXPECT_EQ(a.asked.empty(), again);
+  }
 }
 
 // On fresh skins every film is too weak: one more than the finalists is confirmed, none twice, and

@@ -50,6 +50,7 @@ Score linear(const StudyProblem& problem, double nominal, const std::vector<doub
     a.limited.assign(problem.goals().limited.size(), value);
     a.limited_errors.assign(a.limited.size(), error);
     a.oxide_margin = kInfinity;
+    a.worst = value;
     answers.push_back(std::move(a));
   }
   return problem.score(problem.study().design, answers);
@@ -152,7 +153,8 @@ TEST(Yield, HasTheErrorOfTheLimitedMetrics) {
   EXPECT_NEAR(yield_of(study, {0.1}, 0.02).now.error, 0.1, 0.003);
 }
 
-// A limit on the yield: the other limits are the design's own then, and the ends are the yield's.
+// A limit on the yield: the other limits and the worst modulation are the design's own then, and
+// the ends are the yield's.
 TEST(Yield, AsALimitIsJudgedBesideTheDesignAsDrawn) {
   const std::string scatter = "[scatter]\n\"texture.depth\" = \"20 nm\"\n";
   const Study strict = study_with(scatter + kLimit);
@@ -160,8 +162,10 @@ TEST(Yield, AsALimitIsJudgedBesideTheDesignAsDrawn) {
   const StudyProblem without(strict), with(by_yield);
   const Score ends = linear(without, 0.5, {0.1}), drawn = linear(with, 0.5, {0.1});
   EXPECT_DOUBLE_EQ(ends.limited.at(0), 0.4);
+  EXPECT_DOUBLE_EQ(ends.worst, 0.4);
   EXPECT_FALSE(ends.yield.has_value());
   EXPECT_DOUBLE_EQ(drawn.limited.at(0), 0.5);
+  EXPECT_DOUBLE_EQ(drawn.worst, 0.5);
   ASSERT_TRUE(drawn.yield.has_value());
   EXPECT_NEAR(drawn.yield->share, 0.7, 0.01);
   const std::vector<double> violations = with.constraints().violations(drawn);

@@ -1,15 +1,12 @@
 // The page of `papilla optimize`.
-// Mean over fingers; they share their skins, so errors add linearly.
+// Mean over fingers and scenarios by their weights; they share their skins, so errors add linearly.
 function meanPoints(tasks, key) {
-  const lists = tasks.map((t) => t[key]).filter(Boolean);
-  if (!lists.length) return null;
-  return lists[0].map((p, i) => ({
+  const counted = tasks.filter((t) => t.weight > 0 && t[key]);
+  if (!counted.length) return null;
+  const mean = (i, of) => counted.reduce((s, t) => s + t.weight * of(t[key][i].modulation), 0) / counted.reduce((s, t) => s + t.weight, 0);
+  return counted[0][key].map((p, i) => ({
     relative_humidity: p.relative_humidity,
-    modulation: lists.every((l) => l[i].modulation) ? {
-      value: lists.reduce((s, l) => s + l[i].modulation.value, 0) / lists.length,
-      se: lists.reduce((s, l) => s + ownError(l[i].modulation), 0) / lists.length,
-      parts: {},
-    } : null,
+    modulation: counted.every((t) => t[key][i].modulation) ? { value: mean(i, (m) => m.value), se: mean(i, ownError), parts: {} } : null,
   }));
 }
 function showHumidity() {
@@ -27,7 +24,7 @@ const objectives = heads.filter((h) => heads.includes(h + ' se'));
 const variables = heads.slice(1, heads.indexOf(objectives[0]));
 // One objective of an undriven surface has nothing to be traded for.
 const second = objectives[1] || (data.run.driven ? 'worst modulation' : objectives[0]);
-const label = (name) => name === 'best' ? 'best' : name.replace('front/', 'design ');
+const label = (name) => name === 'best' ? (data.picked ? 'picked' : 'best') : name.replace('front/', 'design ');
 const describe = (row) => variables.map((v) => {
   const unit = / \[(.*)\]$/.exec(v);
   return row[v] === '' ? '' : `${v.replace(/ \[.*/, '').replace(/^[a-z]+\./, '')} ${entry(row[v])}${unit ? ' ' + unit[1] : ''}`;
@@ -45,9 +42,11 @@ function quantity(q, name) {
   return round(q.value * s.scale, 4) + (q.se !== undefined && q.se !== null ? ' ± ' + round(q.se * s.scale, 2) : '') + (q.parameters ? ' (' + round(q.parameters * s.scale, 2) + ')' : '');
 }
 
-// best/ is a copy of a design of the front: the one with the same variables.
+// What the page is about, 'best', is a copy of a design of the front: the one with the same variables.
 const twin = Object.keys(data.designs).find((name) => name !== 'best' && JSON.stringify(data.designs[name].variables) === JSON.stringify(data.designs.best.variables)) || 'best';
 const shown = () => state.design === 'best' ? twin : state.design;
+// Of this one the run has the build sheet and the limits as built.
+const recommended = () => data.picked ? state.design === run.design : state.design === 'best' || state.design === twin;
 
 function showPareto() {
   const sx = shownAs(objectives[0]).scale, sy = shownAs(second).scale;
@@ -214,10 +213,11 @@ function showProgress() {
 
 const showMaps = (index) => mapFigures($('maps'), data.fields[index].maps);
 
-const people = (text) => text.replace(/um\b/g, 'µm').replace(/ deg\b/g, '°');
+const people = (text) => text.replace(/(\d ?)um\b/g, '$1µm').replace(/ deg\b/g, '°');
 // The build sheet of what is recommended; other designs have their dimensions alone.
 function showDimensions(d) {
-  const sheet = state.design === 'best' || state.design === twin ? run.sheet : null;
+  const sheet = recommended() ? run.sheet : null;
+  $('grid').hidden = $('yield').hidden = !sheet;
   if (!sheet) {
     const rows = sectionOf(d.toml, 'texture'), angle = /contact_angle = "([\d.]+) deg"/.exec(d.toml);
     if (angle) rows.push(['contact angle of the surface', round(+angle[1], 3) + ' °']);
@@ -230,7 +230,7 @@ function showDimensions(d) {
 const limitRows = (limits) => limits.map((l) => [l.name.replace(/_/g, ' '), l.asked, l.text + (l.kept ? '' : ': broken')]);
 // Each limit of the study and what the design shown has of it.
 function showLimits(d) {
-  const built = state.design === 'best' || state.design === twin;
+  const built = recommended();
   const limits = (built ? run.limits : d.limits) || [];
   $('limits').parentElement.hidden = !limits.length;
   table($('limits'), ['Limit', 'Asked for', built ? 'As built' : 'This design'], limitRows(limits), [2]);
@@ -238,7 +238,7 @@ function showLimits(d) {
 // From the study's flat surface to the best one, step by step.
 function showSteps() {
   const steps = run.steps || [], names = steps.length ? Object.keys(steps[0].objectives) : [];
-  const before = { 'flat, finish and drive of the best': 'finish', 'best, with its texture': 'texture', 'best, on the grid of the fab': 'rounding', 'flat, on the grid of the fab': 'rounding' };
+  const before = { 'flat, finish and drive of the study': 'finish', 'flat, finish and drive of the best': 'finish', 'best, with its texture': 'texture', 'best, on the grid of the fab': 'rounding', 'flat, on the grid of the fab': 'rounding' };
   table($('steps'), ['Surface'].concat(names.map(called), ['what changed']), steps.map((s, i) => [s.surface].concat(names.map((n) => quantity(s.objectives[n], n) + (i ? ` (${change(s.objectives[n].value - steps[i - 1].objectives[n].value, n)})` : '')), [i ? before[s.surface] || '' : '']))
     .concat(run.best_flat ? [[run.best_flat.surface].concat(names.map((n) => quantity(run.best_flat.objectives[n], n)), ['beside it'])] : []), names.map((n, i) => i + 1));
 }
@@ -301,7 +301,7 @@ if (run.compared) {
   if (run.limits.length) table($('kepthere'), ['Limit', 'Asked for', 'As built'], limitRows(run.limits), [2]);
 }
 $('receipts').hidden = !run.receipts;
-options($('design'), Object.keys(data.designs).map((n) => [n, n !== 'best' ? label(n) : twin !== n ? `best (${label(twin)})` : run.design === null ? 'flat, as recommended' : label(n)]), select);
+options($('design'), Object.keys(data.designs).map((n) => [n, n !== 'best' ? label(n) : twin !== n ? `${label(n)} (${label(twin)})` : run.design === null ? 'flat, as recommended' : label(n)]), select);
 options($('finger'), [['mean', 'mean over fingers']].concat(best.tasks.map((t, i) => [i, t.name])), (value) => { state.finger = value; showHumidity(); showBudget(); });
 options($('rh'), data.fields.map((f, i) => [i, Math.round(100 * f.relative_humidity) + ' %']), showMaps);
 startSolid();
@@ -315,7 +315,7 @@ showSection($('sensitivity'), 'What the best design is sensitive to', '');
 const known = best.parameters;
 $('parameters').textContent = !known ? '' : known.status !== 'ok' ? `What is not known of finger and model is in no error here: ${known.status}.`
   : `Numbers in brackets are the model part: what ${known.source} leaves open, one standard deviation. It moves all designs together`
-  + Object.entries(known.of_the_difference_to_flat).filter(([n, v]) => v !== null).map(([n, v], i) => `${i ? ', ' : ': of the difference between best and flat it leaves '}${round(v, 2)} of ${n}`).join('') + '.';
+  + Object.entries(known.of_the_difference_to_flat).filter(([n, v]) => v !== null).map(([n, v], i) => `${i ? ', ' : `: of the difference between ${label('best')} and flat it leaves `}${round(v, 2)} of ${n}`).join('') + '.';
 showProgress();
 if (data.fields.length) showMaps(0);
 const plan = best.plan;
