@@ -74,9 +74,9 @@ std::string in_worth(const ResultFiles& f, const std::string& words, double valu
   ShownUnit shown;
   if (rule.kind == PickRule::Kind::Objective)
     shown = shown_unit(f.problem.objectives()[rule.index].expression);
-  return stated(bare_number(words, value * shown.scale, shown.unit, kOfBelief, kOfDecision),
-                fmt::format("{:.2g}{}{}", value * shown.scale,
-                            shown.unit.empty() ? "" : " " + shown.unit, more));
+  return stated(
+      bare_number(words, value * shown.scale, shown.unit, kOfBelief, kOfDecision),
+      significant(value * shown.scale, 2) + (shown.unit.empty() ? "" : " " + shown.unit) + more);
 }
 
 // Whether differences are said in per cent too.
@@ -97,8 +97,12 @@ std::string worth_text(const ResultFiles& f, const std::string& words, double di
 std::string share_text(const ResultFiles& f) {
   const Decision& d = decision_of(f);
   if (!has_shares(d)) return {};
+  // Worths rise with what is wished for: of less they are the negative values.
+  const bool less =
+      d.rule.kind == PickRule::Kind::Objective && !f.problem.objectives()[d.rule.index].maximise;
   return fmt::format(", which has {} on average over the members (per cent are of that)",
-                     in_worth(f, "what the best of each member has on average", d.best_worth, ""));
+                     in_worth(f, "what the best of each member has on average",
+                              less ? -d.best_worth : d.best_worth, ""));
 }
 
 std::string regret_text(const ResultFiles& f, std::size_t design) {

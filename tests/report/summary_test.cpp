@@ -13,6 +13,7 @@
 #include "base/constants.h"
 #include "base/files.h"
 #include "base/text.h"
+#include "report/decision.h"
 #include "report/grounds.h"
 #include "report/receipts.h"
 #include "report/recommendation.h"
@@ -589,6 +590,17 @@ TEST(BuildSheet, TheLeadSaysThatBeliefBreaksLimits) {
       << as_read(recommendation(run.files()));
   run.result.decision.designs[0].p_limits = 0.9;
   EXPECT_EQ(as_read(recommendation(run.files())).find("believed of finger"), std::string::npos);
+}
+
+// Worths rise with what is wished for; what is said of a wish for less is the number itself.
+TEST(BuildSheet, OfAWishForLessTheWorthIsTheNumber) {
+  Searched run;
+  run.result.decision.absent = "";
+  run.result.decision.designs = {search::Prospect{}};
+  run.result.decision.rule = {search::PickRule::Kind::Objective, 1};
+  run.result.decision.best_worth = -280;
+  const std::string said = as_read(decision_grounds(run.files()).front());
+  EXPECT_NE(said.find(", which has 280 on average over the members"), std::string::npos) << said;
 }
 
 TEST(BuildSheet, ForProgramsIsInTheUnitsOfTheStudy) {
