@@ -2,10 +2,10 @@
 // thread at the level design, for the published samples and random scenes of every kind, then the
 // median of the ratios; or near pull-in, where the voltage is a share of that at which the gap
 // jumps shut; or the samples at the level of searches, as a search meets them: the median of nine
-// runs with all tables there. Run by hand after ninja -C build equilibrium_bench:
-//   build/bench/equilibrium_bench 20
-//   build/bench/equilibrium_bench pull_in
-//   build/bench/equilibrium_bench search
+// runs with all tables there. Run by hand after ninja -C build/release equilibrium_bench:
+//   build/release/bench/equilibrium_bench 20
+//   build/release/bench/equilibrium_bench pull_in
+//   build/release/bench/equilibrium_bench search
 #include <fmt/format.h>
 
 #include <ctime>

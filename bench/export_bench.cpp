@@ -1,6 +1,7 @@
 // EXR of many pixels by the exporter (checked, written, read back, compared, on the disk) against
 // OpenImageIO's own write of the same pixels with the same compression, in pairs whose order
-// alternates: ninja -C build export_bench; build/bench/export_bench [PIXELS [PAIRS]].
+// alternates: ninja -C build/release export_bench; build/release/bench/export_bench [PIXELS
+// [PAIRS]].
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Water between patches that do not carry: the capillary force and retention of patches that hang
 // over flat glass by so much, beside those of a patch that carries, and how many of them there are.
-// ninja -C build far_water_bench && build/bench/far_water_bench designs >
+// ninja -C build/release far_water_bench && build/release/bench/far_water_bench designs >
 // results/accuracy/far_water.csv
 #include <fmt/format.h>
 

@@ -1,4 +1,5 @@
-// Seconds of a transform forth and back, by this build's transform: ninja -C build fft_bench.
+// Seconds of a transform forth and back, by this build's transform: ninja -C build/release
+// fft_bench.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Cost and error of the field rules on the published samples: prints results/accuracy/field.csv.
-// Run by hand: ninja -C build field_bench && build/bench/field_bench [PIXELS FINEST
+// Run by hand: ninja -C build/release field_bench && build/release/bench/field_bench [PIXELS FINEST
 // [SAMPLE...]]
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // The field rule against the 3-D field over kinds, slopes, processes and humidities, and what is
 // left of the difference where two skins correct four others: prints
-// results/accuracy/field_kinds.csv. Run by hand: ninja -C build field_kinds_bench &&
-// build/bench/field_kinds_bench designs [random COUNT SEED]
+// results/accuracy/field_kinds.csv. Run by hand: ninja -C build/release field_kinds_bench &&
+// build/release/bench/field_kinds_bench designs [random COUNT SEED]
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // drawn by a seed, in groups of three that differ by some numbers. Each is refined, stands alone
 // and is carried by each other of its group. CSV: what the first answer said, its standard error,
 // what it was made of, the refined value.
-//   ninja -C build first_answer_bench
-//   build/bench/first_answer_bench designs 30 2613 > results/studio/bands.csv
+//   ninja -C build/release first_answer_bench
+//   build/release/bench/first_answer_bench designs 30 2613 > results/studio/bands.csv
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // Ten hole arrays from 0.2 to 6 um of period, walls of 70 to 90 degrees, at 256, 512 and 1024
 // pixels on the same skins: is what finer pixels change inside the bars that 256 state?
-// ninja -C build grids_bench && build/bench/grids_bench designs > results/accuracy/grids.csv
+// ninja -C build/release grids_bench && build/release/bench/grids_bench designs >
+// results/accuracy/grids.csv
 #include <fmt/format.h>
 
 #include <array>

@@ -2,8 +2,8 @@
 // film, drawn by a seed, each beside one that a hand made of it, with the belief of the shipped
 // finger on 2 skins (several sets of them) and on 24 others: numbers at humidities, means and
 // variations over them, and the differences of the two. CSV: what each set says.
-//   ninja -C build model_part_bench
-//   build/bench/model_part_bench designs 8 2612 > results/accuracy/model_part.csv
+//   ninja -C build/release model_part_bench
+//   build/release/bench/model_part_bench designs 8 2612 > results/accuracy/model_part.csv
 #include <fmt/format.h>
 
 #include <algorithm>

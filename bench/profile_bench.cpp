@@ -1,6 +1,6 @@
 // Where an evaluation of the default study spends its time, as CSV: share of contact, water and
 // field in the processor time of one thread, FFT pairs a contact solve, contact fraction and patch
-// pressure. Run by hand: ninja -C build profile_bench && build/bench/profile_bench
+// pressure. Run by hand: ninja -C build/release profile_bench && build/release/bench/profile_bench
 #include <fmt/format.h>
 
 #include "base/memory.h"

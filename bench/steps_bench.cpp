@@ -3,8 +3,8 @@
 // is halved ten times; what is left of it then is a step, beside what a move by a thousandth does.
 // Lines at random are walked with threshold water and one period, with the period too (the patch
 // holds whole numbers of them), and with droplets, which settle elsewhere. Prints a table:
-// ninja -C build steps_bench
-// build/bench/steps_bench designs 64 8 100 > results/accuracy/steps.csv
+// ninja -C build/release steps_bench
+// build/release/bench/steps_bench designs 64 8 100 > results/accuracy/steps.csv
 #include <cstdlib>
 
 #include "tests/hard_cases/steps.h"

@@ -1,7 +1,7 @@
 // What a second buys: the sampling error of mean modulation, its variation and the difference of
 // two designs, by the root of the seconds of one thread; what the surface without texture, on the
 // same skins, would take off as a control variate; and what the droplets alone scatter. Prints a
-// table: ninja -C build variance_bench && build/bench/variance_bench designs >
+// table: ninja -C build/release variance_bench && build/release/bench/variance_bench designs >
 // results/bench/variance.csv
 #include <fmt/format.h>
 

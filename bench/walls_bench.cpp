@@ -1,6 +1,6 @@
 // Wall angle from 25 to 90 degrees and depth from 0 to 400 nm on common skins, three grids: what a
 // step at an angle or at a pixel's height would show. Writes walls.csv and walls.svg:
-// ninja -C build walls_bench && build/bench/walls_bench designs results/accuracy
+// ninja -C build/release walls_bench && build/release/bench/walls_bench designs results/accuracy
 #include <fmt/format.h>
 
 #include <array>

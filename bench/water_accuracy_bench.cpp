@@ -1,7 +1,7 @@
 // How far the options of the droplets move capillary force, pull and modulation on the gaps of real
 // scenes, which placement of droplets has the least error for its cost, and what the papers'
-// ensemble says. Prints results/accuracy/water.csv: ninja -C build water_accuracy_bench &&
-// build/bench/water_accuracy_bench designs > results/accuracy/water.csv
+// ensemble says. Prints results/accuracy/water.csv: ninja -C build/release water_accuracy_bench &&
+// build/release/bench/water_accuracy_bench designs > results/accuracy/water.csv
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // What the water piece costs, prints results/bench/water.csv:
-// ninja -C build water_bench && build/bench/water_bench > results/bench/water.csv
+// ninja -C build/release water_bench && build/release/bench/water_bench > results/bench/water.csv
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Whether the capillary force over the walls of holes has a limit under refinement, and what the
 // depth of the holes does to it (claim M7): the same skins on grids of 128^2 to 1024^2, by the mean
 // volume and by a low and a high one. Prints results/accuracy/water_walls.csv:
-// ninja -C build water_walls_bench && build/bench/water_walls_bench designs >
+// ninja -C build/release water_walls_bench && build/release/bench/water_walls_bench designs >
 // results/accuracy/water_walls.csv
 #include <fmt/format.h>
 

@@ -8,6 +8,8 @@ target_compile_definitions(papilla_options INTERFACE PAPILLA_VERSION="${PROJECT_
                            # would align, and free, differently from them.
                            EIGEN_DONT_VECTORIZE EIGEN_MAX_ALIGN_BYTES=16
                            EIGEN_MAX_STATIC_ALIGN_BYTES=16)
+# The compiler clears up its own memory when it has a gigabyte: a tenth of its time, for a quarter more memory.
+target_compile_options(papilla_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
 # A program loads what it calls, not what its layers might.
 target_link_options(papilla_options INTERFACE LINKER:--as-needed)
 if(PAPILLA_WARNINGS_AS_ERRORS)
@@ -19,7 +21,9 @@ target_compile_options(papilla_options INTERFACE -fstack-protector-strong)
 target_compile_definitions(papilla_options INTERFACE _GLIBCXX_ASSERTIONS)
 target_link_options(papilla_options INTERFACE LINKER:-z,relro,-z,now)
 if(NOT PAPILLA_SANITIZE AND NOT PAPILLA_FUZZERS)
-  target_compile_options(papilla_options INTERFACE $<$<NOT:$<CONFIG:Debug>>:-D_FORTIFY_SOURCE=2>)
+  # Of tests, which are not optimised, it could not be asked.
+  set(optimised $<NOT:$<OR:$<CONFIG:Debug>,$<BOOL:$<TARGET_PROPERTY:PAPILLA_UNOPTIMISED>>>>)
+  target_compile_options(papilla_options INTERFACE $<${optimised}:-D_FORTIFY_SOURCE=2>)
 endif()
 if(PAPILLA_FUZZERS)
   target_compile_options(papilla_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined

@@ -43,7 +43,9 @@ NextExperiments next_experiments(const std::vector<std::string>& sources,
 struct TellOptions {
   // Of the files as a whole, where they do not say it themselves; date: empty: today.
   std::string experiment, field, design, finger, day, date;
-  bool replace = false;  // readings take the place of those that they contradict
+  // Readings take the place of those that they contradict, and of what the same file was told as
+  // before; else another value is refused, and a file that is told again is counted once.
+  bool replace = false;
   int threads = 0;
   std::function<void(const std::string&)> progress;  // for people; may be empty
 };

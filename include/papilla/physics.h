@@ -55,7 +55,7 @@ struct Water {
   double surface_tension = 0.072126;       // [N/m]
   double theta_skin = 1.3962634015954636;  // contact angles [rad]
   double theta_substrate = 0.8726646259971648;
-  double hysteresis = 0.26;  // cos(receding) - cos(advancing)
+  double hysteresis = 0.33;  // cos(receding) - cos(advancing)
 };
 
 struct DropletOptions {

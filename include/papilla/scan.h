@@ -21,7 +21,8 @@ struct Scan {
   std::string json;     // what `papilla surface --json` prints
 };
 
-// Throws InputError for a file that is no map, that holds no size, or heights that no surface has.
+// A file that is not there is looked for among the shipped designs. Throws InputError for a file
+// that is no map, that holds no size, or heights that no surface has.
 Scan read_scan(const std::string& file, const ScanOptions& options = {});
 
 // The same of a map of the caller's own, as it is. tip: as of ScanOptions. Throws InputError.

@@ -76,7 +76,8 @@ class Study {
   const std::vector<Objective>& objectives() const;
   std::size_t violations() const;  // of a Judgement
 
-  // The design that these values of the variables make, and the values of the study's own.
+  // The design that these values of the variables make, and the values of the study's own, inside
+  // its space or not: design() and judge() take those besides what lies inside.
   Design design(const std::vector<double>& values) const;
   std::vector<double> own_values() const;
 

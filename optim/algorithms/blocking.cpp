@@ -82,24 +82,49 @@ class Blocking : public Searcher {
 
 }  // namespace
 
+namespace {
+
+// From 0, without a violation, to 1, of one that is not known.
+double share_of_violation(const Outcome& outcome) {
+  const bool known = outcome.ok || !outcome.constraints.empty();
+  const double violation = known ? outcome.violation() : std::numeric_limits<double>::infinity();
+  return std::isfinite(violation) ? violation / (1 + violation) : 1;
+}
+
+}  // namespace
+
 std::vector<double> Penalty::finite(const Outcome& outcome, std::size_t objectives) {
+  if (outcome.ok) {
+    scale_.resize(objectives, 0);
+    for (std::size_t k = 0; k < objectives && first_.empty(); ++k)
+      scale_[k] = std::max(scale_[k], std::abs(outcome.objectives[k]));
+  }
   if (outcome.feasible()) {
-    if (worst_.empty()) worst_ = best_ = outcome.objectives;
+    if (first_.empty()) first_ = worst_ = best_ = outcome.objectives;
     for (std::size_t k = 0; k < objectives; ++k) {
       worst_[k] = std::max(worst_[k], outcome.objectives[k]);
       best_[k] = std::min(best_[k], outcome.objectives[k]);
     }
-    return outcome.objectives;
+    return began_infeasible_ ? below_violations(outcome.objectives) : outcome.objectives;
   }
-  std::vector<double> out(objectives, 1.0);
-  for (std::size_t k = 0; k < objectives && !worst_.empty(); ++k) {
+  if (first_.empty()) began_infeasible_ = true;
+  const double share = share_of_violation(outcome);
+  std::vector<double> out(objectives, share);
+  for (std::size_t k = 0; k < objectives && !began_infeasible_; ++k) {
     const double span = std::max(worst_[k] - best_[k], 1e-6 * std::max(1.0, std::abs(worst_[k])));
     // Bounded: worst + 10 % for the smallest violation, at most one more span for the largest.
-    const double violation = outcome.ok || !outcome.constraints.empty()
-                                 ? outcome.violation()
-                                 : std::numeric_limits<double>::infinity();
-    out[k] =
-        worst_[k] + span * (0.1 + (std::isfinite(violation) ? violation / (1 + violation) : 1));
+    out[k] = worst_[k] + span * (0.1 + share);
+  }
+  return out;
+}
+
+// From the first feasible values, in units of the largest known then; what is worse is bent so that
+// it stays below 0, where the violations begin.
+std::vector<double> Penalty::below_violations(const std::vector<double>& objectives) const {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < objectives.size(); ++k) {
+    const double x = (objectives[k] - first_[k]) / (scale_[k] > 0 ? scale_[k] : 1);
+    out.push_back((x > 0 ? x / (1 + x) : x) - 1);
   }
   return out;
 }

@@ -43,14 +43,23 @@ const std::vector<MethodKind>& method_kinds();
 using BlockingObjective = std::function<std::vector<Outcome>(const std::vector<Point>&)>;
 std::unique_ptr<Searcher> make_blocking(std::function<void(const BlockingObjective&)> run);
 
-// A finite stand-in for failed and infeasible outcomes: the worst so far plus a margin that grows
-// with the violation. Never a huge constant: that would spoil quadratic models.
+// What an optimiser sees in place of outcomes: of feasible ones their objectives, of failed and
+// infeasible ones a finite number that grows with the violation, the worst so far plus a margin.
+// Never a huge constant: that would spoil quadratic models.
+// Optimisers keep the numbers that they saw. Where the first outcomes are infeasible, no objective
+// is known that a number could lie above; the share of the violation is then the number, from 0
+// to 1, and feasible objectives are moved below 0, in their order, to the end of the search.
 class Penalty {
  public:
   std::vector<double> finite(const Outcome& outcome, std::size_t objectives);
 
  private:
-  std::vector<double> worst_, best_;
+  std::vector<double> below_violations(const std::vector<double>& objectives) const;
+
+  std::vector<double> worst_, best_;  // feasible
+  std::vector<double> first_;         // the first feasible; empty: there is none yet
+  std::vector<double> scale_;         // the largest size up to it, of infeasible ones too
+  bool began_infeasible_ = false;
 };
 
 std::size_t nsga2_population(const SearchProblem& problem);

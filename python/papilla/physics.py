@@ -167,7 +167,7 @@ class Droplets(v.Brief):
 
 
 def droplets(gap: Map, size: Size | None = None, *, volume: Quantified, theta_skin: Quantified = "80 deg",
-             theta_substrate: Quantified = "50 deg", surface_tension: Quantified = 0.072126, hysteresis: float = 0.26,
+             theta_substrate: Quantified = "50 deg", surface_tension: Quantified = 0.072126, hysteresis: float = 0.33,
              drops_per_volume: Quantified = 100e18, first_step: Quantified = 200e-9, seed: int = 1, index: int = 0,
              threshold: bool = False) -> Droplets:
     """Droplets of sweat in a gap [m], shape (ny, nx), 0 in contact.

@@ -41,7 +41,7 @@ class Variable:
 
     def shown(self, value: float) -> Union[float, str]:
         """The value as a person gives it: the name of a choice that has one, else the number."""
-        return self.names[self.choices.index(value)] if self.names else value
+        return dict(zip(self.choices, self.names)).get(value, value)
 
     def number(self, value: Any) -> float:
         """The number of a name, of a text with a unit, or of a number. Raises InputError that names the key."""
@@ -324,7 +324,7 @@ class Study:
 
     @property
     def own(self) -> Point:
-        """The values of the study's own design."""
+        """The values of the study's own design, inside its space or not."""
         return Point(self, self._inside.own_values())
 
     def point(self, values: Values) -> Point:

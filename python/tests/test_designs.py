@@ -240,8 +240,11 @@ def test_a_scan_is_what_the_command_shows(tmp_path: pathlib.Path) -> None:
     assert scan.changes.startswith(str(file)) and scan.roughness["Sq"] == scan.to_dict()["areal"]["Sq"]
     assert np.array_equal(pickle.loads(pickle.dumps(scan)).heights.z, scan.heights.z)
     assert scan.design({"base": "m3_samples/common.toml"}).heights(64).z.shape == (64, 64)
+    assert pp.read_scan("measured_surface/scan.gsf").roughness == scan.roughness, "looked for where the command looks"
     with pytest.raises(pp.InputError, match="nowhere.gsf"):
         pp.read_scan(tmp_path / "nowhere.gsf")
+    with pytest.raises(pp.InputError, match="cannot read nowhere.gsf"):
+        pp.read_scan("nowhere.gsf")
     with pytest.raises(pp.InputError, match="tip"):
         pp.read_scan(file, tip=-1e-9)
 

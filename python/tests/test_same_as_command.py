@@ -96,6 +96,7 @@ def test_contact_droplets_and_field_are_those_of_the_command(tmp_path: pathlib.P
                            cwd=tmp_path)
     wet = pp.droplets(gap, "4 um", volume="0.2 um3")
     assert wet.capillary_force == printed["capillary_force"]
+    assert wet.retention == printed["retention"]
     assert wet.x.tolist() == [d["x"] for d in printed["droplets"]]
     assert wet.place == [d["state"] for d in printed["droplets"]]
     for method in ("local", "spread", "full"):

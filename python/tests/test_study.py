@@ -175,6 +175,14 @@ def test_kinds_have_their_names() -> None:
         study.point({"texture.type": "waves"})
 
 
+def test_the_own_design_is_the_files_beside_its_space() -> None:
+    space = {"texture.depth": ["100 nm", "300 nm"], "texture.type": {"choice": ["grating", "pillar_array"]}}
+    study = pp.Study({**STUDY, "design_space": space})
+    own = study.own
+    assert study.design({}) == own.design == study.design(dict(own)) and "texture.type=" in repr(own)
+    assert own.design["texture.depth"] == pytest.approx(350e-9) and 'type = "hole_array"' in own.design.to_toml()
+
+
 def test_designs_are_asked_for_a_few_at_a_time() -> None:
     whole, few = pp.Study(STUDY), pp.Study(STUDY)
 

@@ -22,7 +22,8 @@ Scan scan_of(const SurfaceView& view) {
 Scan read_scan(const std::string& file, const ScanOptions& options) {
   return across([&] {
     check_tip(options.tip);
-    return scan_of(view_of({file, options.width, options.fill, options.as_is}, options.tip));
+    return scan_of(
+        view_of({own_or_shipped(file), options.width, options.fill, options.as_is}, options.tip));
   });
 }
 

@@ -53,13 +53,23 @@ Judgement searched_judgement(const Score& score) {
   return {score.ok, score.reason, score.values, score.errors, {}};
 }
 
-// Throws rooms::InputError for values that are none of the space.
-rooms::Point unit_of(const StudyProblem& problem, const std::vector<double>& values) {
-  if (values.size() != problem.space().size()) {
+// Of values of the space, as a search has it, and of the study's own beside it, exactly these.
+// Throws rooms::InputError for others.
+rooms::Design design_at(const StudyProblem& problem, const std::vector<double>& values) {
+  const DesignSpace& space = problem.space();
+  if (values.size() != space.size()) {
     throw wrong("values", fmt::format("expected one value for each of {} variables, got {}",
-                                      problem.space().size(), values.size()));
+                                      space.size(), values.size()));
   }
+  const rooms::Point unit = space.unit(values);
+  std::vector<double> taken = space.value(unit);
+  bool beside = false;
   for (std::size_t i = 0; i < values.size(); ++i) {
+    if (space.own_is_beside(i) && values[i] == space.own_values()[i]) {
+      taken[i] = values[i];
+      beside = true;
+      continue;
+    }
     const rooms::Variable& v = problem.study().variables[i];
     const double slack = 1e-9 * std::max(std::abs(v.low), std::abs(v.high));
     if (!(values[i] >= v.low - slack && values[i] <= v.high + slack)) {
@@ -67,7 +77,7 @@ rooms::Point unit_of(const StudyProblem& problem, const std::vector<double>& val
                   fmt::format("{:.6g} is outside {:.6g} to {:.6g}", values[i], v.low, v.high));
     }
   }
-  return problem.space().snapped(problem.space().unit(values));
+  return beside ? space.design_of(taken) : space.design(space.snapped(unit));
 }
 
 // As searchers are told: minimised.
@@ -101,32 +111,26 @@ std::size_t Study::violations() const { return inside_->problem->constraints().e
 
 Design Study::design(const std::vector<double>& values) const {
   return across([&] {
-    const StudyProblem& problem = *inside_->problem;
-    const rooms::Point unit = unit_of(problem, values);
     Design::Inside made;
-    made.study.design = problem.space().design(unit);
+    made.study.design = design_at(*inside_->problem, values);
     made.text = to_toml(made.study.design);
     made.study = parse_study(made.text, "design.toml");
     return Design(std::make_shared<const Design::Inside>(std::move(made)));
   });
 }
 
-std::vector<double> Study::own_values() const {
-  const DesignSpace& space = inside_->problem->space();
-  return space.value(space.unit_of_study());
-}
+std::vector<double> Study::own_values() const { return inside_->problem->space().own_values(); }
 
 Judgement Study::judge(const std::vector<double>& values, int threads,
                        const std::atomic<bool>* stop) const {
   return across([&] {
     const StudyProblem& problem = *inside_->problem;
-    const rooms::Point unit = unit_of(problem, values);
-    if (const std::string refused = problem.constraints().geometry_reason(unit); !refused.empty())
+    const rooms::Design design = design_at(problem, values);
+    if (const std::string refused = problem.constraints().geometry_reason(design); !refused.empty())
       return Judgement{false, refused, {}, {}, {}};
     Watch watch({}, stop);
     TaskWork work{stage_fidelity(problem, Stage::Search)};
     work.fidelity.threads = threads;
-    const rooms::Design design = problem.space().design(unit);
     std::vector<TaskAnswer> answers;
     for (std::size_t task = 0; task < problem.tasks().size(); ++task)
       answers.push_back(evaluate_task(problem, design, task, work));

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
+#include "base/units.h"
 #include "base/watch.h"
+#include "config/describe.h"
 #include "design/design.h"
 #include "forward/forward.h"
 #include "forward/plan.h"
@@ -43,13 +46,11 @@ LeastSquaresOptions fit_options(const Calibration& calibration, const Calibratio
 // The friction coefficient on flat glass without voltage, at each humidity of that sample.
 std::vector<double> flat_glass_friction(const Finger& finger, const Fidelity& fidelity) {
   Design flat = read_design(find_design("m3_samples/flat.toml"));
-  const double load = flat.finger.load;
-  flat.finger = finger;
-  flat.finger.load = load;
+  flat.finger = finger.touching_as(flat.finger);
   flat.model = finger.calibrated_for;
   std::vector<double> out;
   for (const ResponsePoint& p : evaluate(scene_of(flat), flat.texture, fidelity).points)
-    out.push_back(p.friction_off.value / load);
+    out.push_back(p.friction_off.value / flat.finger.load);
   return out;
 }
 
@@ -185,7 +186,7 @@ class Fit {
     out_.finger.fitted_to.clear();
     for (const std::string& id : calibration_.fit)
       out_.finger.fitted_to += (out_.finger.fitted_to.empty() ? "" : " ") + id;
-    out_.finger.uncertainty = deviations(out_.fit);
+    out_.finger.uncertainty = deviations(out_.fit, options_.note);
     out_.rows = residuals_.rows();
     const std::vector<Estimate> after = residuals_.model(calibration_, out_.fit.values());
     for (std::size_t i = 0; i < after.size(); ++i) out_.rows[i].after = after[i].value;
@@ -209,19 +210,31 @@ class Fit {
 
 }  // namespace
 
-std::vector<ParameterDeviation> deviations(const LeastSquaresFit& fit) {
-  constexpr double kMost = 3;  // that a finger file takes; whoever has more is not known at all
+std::vector<ParameterDeviation> deviations(const LeastSquaresFit& fit,
+                                           const std::function<void(const std::string&)>& note) {
+  // That a finger file takes; whoever has more is not known at all.
+  ParameterDeviation row;
+  const NumberField key = find_number(row, "deviation");
+  const double most = key.high * find_unit(key.unit)->to_si;
   std::vector<ParameterDeviation> out;
   std::vector<std::size_t> known;
   const std::size_t n = fit.parameters.size();
   for (std::size_t i = 0; i < n; ++i) {
     const ParameterFit& f = fit.parameters[i];
     if (f.at_bound || !(f.se > 0) || !std::isfinite(f.se)) continue;
-    const double relative = f.value != 0 ? f.se / std::abs(f.value) : kMost;
-    ParameterDeviation row{f.name, std::min(relative, kMost), {}};
+    const double relative = f.value != 0 ? f.se / std::abs(f.value) : kInfinity;
+    if (relative > most && note)
+      note(
+          fmt::format("{} is not known: its standard error is {}; the finger's file says {:g} %, "
+                      "the most that it takes",
+                      f.name,
+                      f.value != 0 ? fmt::format("{:.3g} % of it", 100 * relative)
+                                   : std::string("beside a value of 0"),
+                      100 * most));
+    row = {f.name, std::min(relative, most), {}};
     for (const std::size_t j : known) row.correlation.push_back(fit.correlation[i * n + j]);
     known.push_back(i);
-    out.push_back(std::move(row));
+    out.push_back(row);
   }
   return out;
 }

@@ -38,9 +38,10 @@ struct CalibrationOptions {
 CalibrationResult fit_finger(const Calibration& calibration,
                              const CalibrationOptions& options = {});
 
-// What Eq. accuracy.11 carries on: relative deviations, at most 300 %; a number at its bound has
-// none.
-std::vector<ParameterDeviation> deviations(const LeastSquaresFit& fit);
+// What Eq. accuracy.11 carries on: relative deviations, at most what a finger file takes; `note` is
+// told of those that are more. A number at its bound has none.
+std::vector<ParameterDeviation> deviations(
+    const LeastSquaresFit& fit, const std::function<void(const std::string&)>& note = {});
 
 // Chi squared per degree of freedom: 1 where the stated deviations are right.
 double misfit(const CalibrationResult& result);

@@ -55,8 +55,11 @@ std::string as_text(const SkinSampling& s) {
 // All that the model's answers depend on beside finger and sampling.
 std::string problem_of(const Calibration& calibration, const std::vector<MeasuredGroup>& groups) {
   std::string out = PAPILLA_VERSION "\n" + read_bytes(calibration.file);
+  out += maps_state({}, calibration.finger);
+  if (!calibration.fit.empty()) out += designs_state("m3_samples");
   for (const MeasuredGroup& group : groups) {
-    out += write_toml(to_table(group.design));
+    out +=
+        write_toml(to_table(group.design)) + maps_state(group.design.texture, calibration.finger);
     for (const std::size_t row : group.rows) out += fmt::format(" {}", row);
     for (const std::size_t at : group.humidity_of) out += fmt::format(" {}", at);
   }
@@ -265,11 +268,7 @@ std::vector<Residuals::Friction> Residuals::evaluated(const Finger& finger,
   if (corrected) fidelity.control_skins = fidelity_level(sampling.level).control_skins;
   for (const MeasuredGroup& s : groups_) {
     Scene scene = scene_of(s.design);
-    const double load = scene.finger.load;
-    const FingerState state = scene.finger.state;
-    scene.finger = finger;
-    scene.finger.load = load;
-    scene.finger.state = state;
+    scene.finger = finger.touching_as(scene.finger);
     scene.model = finger.calibrated_for;
     const Response response = evaluate(scene, s.design.texture, fidelity);
     for (std::size_t k = 0; k < s.rows.size(); ++k) {

@@ -114,10 +114,13 @@ StatisticsNumber over(const std::vector<Seed>& seeds, const std::vector<Seed>& c
   std::vector<double> values;
   for (const Seed& s : seeds) values.push_back(number(s));
   const Estimate mean = mean_estimate(values);
-  StatisticsNumber out{mean.value, mean.se, 0};
+  StatisticsNumber out{mean.value};
+  if (seeds.size() > 1) out.seeds = mean.se;
+  if (coarse.empty()) return out;
+  double change = 0;
   for (std::size_t k = 0; k < coarse.size(); ++k)
-    out.grid += (number(coarse[k]) - values[k]) / static_cast<double>(coarse.size());
-  out.grid = std::abs(out.grid);
+    change += (number(coarse[k]) - values[k]) / static_cast<double>(coarse.size());
+  out.grid = std::abs(change);
   return out;
 }
 
@@ -134,7 +137,10 @@ Distribution over_bins(const std::vector<Seed>& seeds, std::size_t i, double wid
 
 }  // namespace
 
-double StatisticsNumber::error() const { return std::hypot(seeds, grid); }
+std::optional<double> StatisticsNumber::error() const {
+  if (!seeds && !grid) return std::nullopt;
+  return std::hypot(seeds.value_or(0), grid.value_or(0));
+}
 
 PowerSpectrum StatisticsCase::spectrum() const {
   const PowerSpectrum given = pressed.roughness.spectrum();
@@ -225,6 +231,11 @@ StatisticsCase read_statistics(Document document) {
                     "spectrum ends at {:.4g} um: a larger grid, a smaller "
                     "size or a lower roughness.cutoff",
                     c.sampling.grid, 1e6 * c.side(), 2e6 * kPi / most, 2e6 * kPi / highest)}});
+  if (slope_of(c.pressed.roughness.spectrum(), c.side()) == 0)
+    throw InputError({Problem{
+        "", 0, 0, "sampling.size",
+        fmt::format("a square of {:.4g} um holds no wave of the spectrum, which ends at {:.4g} um",
+                    1e6 * c.side(), 2e6 * kPi / highest)}});
   return c;
 }
 

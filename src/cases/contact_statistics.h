@@ -2,6 +2,7 @@
 // contact area, distributions of gap and pressure and what a field makes of the gaps, over seeds.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,10 +55,12 @@ StatisticsCase read_statistics(const std::string& path,
 StatisticsCase read_statistics(Document document);
 
 // A mean over the seeds. seeds: its standard error by them; grid: what half the pixels change.
+// Nothing where one was not measured: of one seed, without controls.
 struct StatisticsNumber {
-  double value = 0, seeds = 0, grid = 0;
+  double value = 0;
+  std::optional<double> seeds{}, grid{};
 
-  double error() const;  // both
+  std::optional<double> error() const;  // of the parts that were measured
 };
 
 // A share of the area per unit of what it is over: bins of equal width from 0.

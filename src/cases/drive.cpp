@@ -139,7 +139,7 @@ Signal chirp(double amplitude, double from, double to, double time, std::size_t 
 
 Modulation modulation_of(const DriveCase& c) {
   Modulation m;
-  if (c.drive.waveform != Waveform::Am) return m;
+  if (!c.modulated()) return m;
   m.frequency = c.tones.frequency;
   m.amplitude = c.tones.amplitude;
   if (m.frequency.empty()) m = {{c.drive.modulation_frequency}, {1}};
@@ -280,7 +280,7 @@ DriveCase read_drive_case(Document document) {
   if (c.drive.waveform != Waveform::Dc && c.drive.frequency <= 0) {
     document.problem_at("drive.frequency", "expected a frequency above 0 kHz, or waveform dc");
   }
-  if (c.drive.waveform == Waveform::Am) {
+  if (c.drive.waveform == Waveform::Am && c.source.file.empty()) {  // a recording has no tones
     if (c.tones.frequency.empty() && c.drive.modulation_frequency <= 0) {
       document.problem_at("drive.modulation_frequency",
                           "expected a frequency above 0 Hz, or tones.frequency, for am");
@@ -321,7 +321,8 @@ DriveCase read_drive_case(Document document) {
         "a chirp is a sine without tones: set drive.waveform = \"sine\", and no file");
   }
   finish(document);
-  if (recorded) c.recording = recorded_signal(read_bytes(c.source.file), c.source.file);
+  if (recorded)
+    c.recording = recorded_signal(read_bytes(c.source.file), c.source.file, c.drive.control);
   return c;
 }
 
@@ -381,7 +382,7 @@ DriveResult solve_drive(const DriveCase& c) {
   r.friction = r.series.force;
   for (double& f : r.friction.value) f = c.touch.coefficient * (c.touch.load + f);
   r.lines = spectrum_lines(r.friction, highest_line(c, r.friction));
-  if (drive.waveform == Waveform::Am) {
+  if (c.modulated()) {
     r.distortion = total_distortion(r.friction, r.modulation.frequency, 0.5 * frequency);
   }
   for (double f : c.sweep.frequency) {

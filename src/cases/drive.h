@@ -88,6 +88,9 @@ struct DriveCase {
   ResponseSweep sweep;
   SwipeSettings swipe;
   Signal recording;  // of source.file; empty: none
+
+  // By its tones: of amplitude modulation, which a recording replaces.
+  bool modulated() const { return drive.waveform == Waveform::Am && recording.value.empty(); }
 };
 void fields(FieldVisitor& v, DriveCase& s);
 
@@ -108,10 +111,10 @@ struct DriveResult {
   double area = 0;                      // [m^2]
   double spots = 0;                     // resistance of the contact spots [ohm]; 0: not known
   DriveResponse carrier;                // unmodulated, at the drive's frequency and peak amplitude
-  Modulation modulation;                // am only
+  Modulation modulation;                // where the case is modulated
   ForceSeries series;                   // one common period
   Signal friction;                      // coefficient (load + pull) [N]
-  double distortion = 0;                // of the friction below half the carrier; am only
+  double distortion = 0;                // of the friction below half the carrier; where modulated
   std::vector<SpectrumLine> lines;      // of the friction, 1e-6 of the largest and above
   std::vector<DriveResponse> response;  // one per frequency of the sweep
   std::vector<DriveCheck> checks;       // body current, source compliance, air in the gap
@@ -133,15 +136,17 @@ struct Swipe {
   std::vector<SwipeStep> steps;
   double duration = 0, driven = 0;     // [s]; driven: with current
   std::vector<RubbingSample> samples;  // of a rendered one
+  bool without_tones = false;          // of a rendered one: the case has some
 };
 // Of recorded forces: lines "lateral,normal" [N], one per step of the options and low-passed
 // before; or "time,lateral,normal" [s] at any even rate above twice the filter's corner, which are
-// low-passed and taken at the steps of the options here. A head is skipped. Throws InputError
-// naming `name` and the line.
+// low-passed and taken at the steps of the options here. Below a head the columns are in its order
+// and units. Throws InputError naming `name` and the line.
 Swipe run_swipe(const std::string& csv, const std::string& name, const StictionOptions& options,
                 double filter);
 // The loop closed: the finger of the case drags to and fro, and the current that the machine asks
-// for pulls it. Throws InputError where the drive is no current.
+// for pulls it. That is the amplitude of the carrier, sine, square or constant, in the place of any
+// tones. Throws InputError where the drive is no current, or is recorded or a chirp.
 Swipe render_swipe(const DriveCase& c, const Network& network);
 
 }  // namespace papilla::cases

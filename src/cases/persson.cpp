@@ -138,6 +138,32 @@ void fields(FieldVisitor& v, MeanFieldCase& s) {
   v.section({"theory", "constants of the theory"}, s.theory);
 }
 
+namespace {
+
+double own_frequency(const MeanFieldCase& c) {
+  return c.drive.waveform == Waveform::Dc ? 0 : c.drive.frequency;
+}
+
+// The pull in contact goes as 1/|h0|^2, so that the square has to be a number apart from zero.
+bool insulates(std::complex<double> h0) {
+  return std::norm(h0) >= std::numeric_limits<double>::min();
+}
+
+// At the case's own point or anywhere in its sweeps.
+bool voltage_meets_no_layer(const MeanFieldCase& c) {
+  const auto bare = [&](double frequency) {
+    return !insulates(c.interface.thickness(c.skin.solid.layer_thickness, frequency));
+  };
+  const auto driven = [](double voltage) { return voltage > 0; };
+  const bool own = driven(c.drive.amplitude);
+  const auto& [voltages, loads, frequencies] = c.sweep;
+  return ((own || std::any_of(voltages.begin(), voltages.end(), driven)) &&
+          bare(own_frequency(c))) ||
+         (own && std::any_of(frequencies.begin(), frequencies.end(), bare));
+}
+
+}  // namespace
+
 MeanFieldCase read_mean_field(const std::string& path, const std::vector<std::string>& overrides) {
   return read_mean_field(load_document(own_or_shipped(path), overrides, design_roots()));
 }
@@ -166,8 +192,21 @@ MeanFieldCase read_mean_field(Document document) {
                         "without load the gaps of an infinite body are infinite: give a load or a "
                         "finite_size_pressure");
   }
-  if (c.skin.hardness > 0 && c.touch.load / c.touch.area >= c.skin.hardness) {
-    document.problem_at("skin.hardness", "the nominal pressure reaches the hardness");
+  if (c.skin.hardness > 0) {
+    const auto yields = [&](double load) { return load / c.touch.area >= c.skin.hardness; };
+    if (yields(c.touch.load)) {
+      document.problem_at("skin.hardness", "the nominal pressure reaches the hardness");
+    } else if (c.touch.finite_size_pressure >= c.skin.hardness) {
+      document.problem_at("skin.hardness", "touch.finite_size_pressure reaches the hardness");
+    }
+    if (std::any_of(c.sweep.load.begin(), c.sweep.load.end(), yields)) {
+      document.problem_at("sweep.load", "a nominal pressure of the sweep reaches the hardness");
+    }
+  }
+  if (voltage_meets_no_layer(c)) {
+    document.problem_at("interface.dielectric",
+                        "no layer holds the voltage where the surfaces touch (at 0 Hz a lossy skin "
+                        "holds none): give a dielectric, or no voltage");
   }
   finish(document);
   return c;
@@ -190,9 +229,6 @@ class CaseField {
   std::complex<double> thickness(double frequency) const {
     return case_.interface.thickness(case_.skin.solid.layer_thickness, frequency);
   }
-  double frequency() const {
-    return case_.drive.waveform == Waveform::Dc ? 0 : case_.drive.frequency;
-  }
 
   MeanFieldPoint at(double voltage, double load, double frequency) const {
     const TouchSettings& touch = case_.touch;
@@ -208,9 +244,9 @@ class CaseField {
     point.on = friction_at(field_, load, touch.area, touch.shear_strength,
                            pulls ? drive.v_rms() : 0, h0, touch.finite_size_pressure);
     point.area_off = field_.area(load / touch.area);
-    if (pulls)
+    if (pulls && insulates(point.thickness))
       point.capacitance =
-          kVacuumPermittivity * touch.area * gaps_of(point).inverse(std::abs(point.thickness));
+          kVacuumPermittivity * touch.area * std::abs(gaps_of(point).inverse(point.thickness));
     return point;
   }
 
@@ -222,7 +258,14 @@ class CaseField {
   static PowerSpectrum smoothed(const MeanFieldCase& c, const PowerSpectrum& given) {
     if (c.skin.hardness <= 0) return given;
     const double pressure = std::max(c.touch.load / c.touch.area, c.touch.finite_size_pressure);
-    return plastic_smoothing(given, c.skin.solid, c.skin.hardness, pressure, c.theory.kappa);
+    PowerSpectrum smooth =
+        plastic_smoothing(given, c.skin.solid, c.skin.hardness, pressure, c.theory.kappa);
+    if (smooth.wave_number.size() < 2) {
+      throw InputError({Problem{
+          "", 0, 0, "skin.hardness",
+          "the skin yields at every scale of its roughness: take more, or a lower modulus"}});
+    }
+    return smooth;
   }
 
   const MeanFieldCase& case_;
@@ -249,7 +292,7 @@ MeanFieldResult solve_mean_field(const MeanFieldCase& c) {
   result.rms = spectrum.rms();
   result.slope = spectrum.slope();
   result.contact_modulus = effective_modulus(c.skin.solid, spectrum.highest());
-  const double v = c.drive.amplitude, load = c.touch.load, f = of.frequency();
+  const double v = c.drive.amplitude, load = c.touch.load, f = own_frequency(c);
   result.point = of.at(v, load, f);
   for (double x : c.sweep.voltage) result.voltage.push_back(of.at(x, load, f));
   for (double x : c.sweep.load) result.load.push_back(of.at(v, x, f));
@@ -271,21 +314,22 @@ MeanFieldCurves mean_field_curves(const MeanFieldCase& c) {
                              shares.elastic, shares.plastic});
   }
   for (double x : c.sweep.voltage) {
-    for (double y : c.sweep.load) out.grid.push_back(of.at(x, y, of.frequency()));
+    for (double y : c.sweep.load) out.grid.push_back(of.at(x, y, own_frequency(c)));
   }
   const double smallest = c.touch.finite_size_pressure;
   for (const double p : spaced(1, 1e6, kCurve))
     out.separation.push_back({p, field.mean_gap(p), field.mean_gap(std::max(p, smallest))});
-  const MeanFieldPoint point = of.at(c.drive.amplitude, c.touch.load, of.frequency());
+  const MeanFieldPoint point = of.at(c.drive.amplitude, c.touch.load, own_frequency(c));
   if (!std::isfinite(point.thickness.real()) || c.drive.amplitude <= 0) return out;
   const GapDistribution gaps = of.gaps_of(point);
   const std::vector<double> at = spaced(1e-11, 1e-3, kCurve);
-  out.stress = stress_distribution(gaps, c.drive.v_rms(), std::abs(point.thickness), at);
-  if (!c.interface.lossy_skin) return out;
+  out.stress = stress_distribution(gaps, c.drive.v_rms(), point.thickness, at);
+  const double surface = c.interface.surface_thickness();
+  if (!c.interface.lossy_skin || !insulates(surface)) return out;
   const SkinDielectric skin;
-  const double f = std::max(of.frequency(), 1.0);
-  const StepResponse step{c.interface.surface_thickness(), c.skin.solid.layer_thickness,
-                          skin.permittivity_at(f), skin.resistivity_at(f)};
+  const double f = std::max(own_frequency(c), 1.0);
+  const StepResponse step{surface, c.skin.solid.layer_thickness, skin.permittivity_at(f),
+                          skin.resistivity_at(f)};
   const double slowest = step.relaxation_time(0);
   for (const double t : spaced(1e-3 * slowest, 1e2 * slowest, kCurve))
     out.step.push_back({t, step.field(c.drive.amplitude, gaps.mean_gap, t),

@@ -86,7 +86,9 @@ struct MeanFieldPoint {
   std::complex<double> thickness;               // h0 [m]
   double area_off = 0;                          // A/A0 without voltage
   FrictionPoint on;
-  double capacitance = 0;  // of the nominal area, gap and layers in series [F]
+  // Of the nominal area, gap and layers in series [F], of a skin that conducts by the size of its
+  // admittance; 0 where the gap conducts at 0 Hz or no layer insulates.
+  double capacitance = 0;
 };
 
 struct MeanFieldResult {
@@ -94,7 +96,8 @@ struct MeanFieldResult {
   MeanFieldPoint point;
   std::vector<MeanFieldPoint> voltage, load, frequency;  // one per sweep
 };
-// Milliseconds per point. Throws InputError for what has no answer (no load and no finite size).
+// Milliseconds per point. Throws InputError for what has no answer (a skin that yields at every
+// scale).
 MeanFieldResult solve_mean_field(const MeanFieldCase& c);
 
 // What the case's own point consists of, as curves.
@@ -115,7 +118,7 @@ struct MeanFieldCurves {
   std::vector<Roughness> roughness;
   std::vector<StressPoint> stress;  // over the gaps of the point, under its drive
   std::vector<Separation> separation;
-  std::vector<Step> step;
+  std::vector<Step> step;  // empty without a lossy skin or without a dielectric to hold the voltage
   std::vector<MeanFieldPoint> grid;  // every voltage of the sweep at every load, where both are
 };
 // Some 100 points each. Cost: 50 ms, and 15 ms for each point of the grid.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 #include "base/error.h"
 #include "cases/drive.h"
@@ -10,23 +11,31 @@
 namespace papilla::cases {
 namespace {
 
-constexpr const char* kForces = "\"lateral,normal\" in N, or \"time,lateral,normal\"";
+RecordedColumns force_columns() {
+  return {{{"time", "s", false, {"t"}},
+           {"lateral",
+            "N",
+            false,
+            {"lateral_force", "lateral force", "tangential", "friction", "F_t", "Ft"}},
+           {"normal", "N", false, {"normal_force", "normal force", "load", "F_n", "Fn"}}},
+          true,
+          "\"lateral,normal\" in N, or \"time,lateral,normal\" in s and N"};
+}
 
 struct Forces {
   double lateral, normal;  // [N]
 };
 
 // As the machine takes them: one a step, low-passed where the recording says when it was made.
-std::vector<Forces> forces_of(const std::vector<std::vector<double>>& rows, const std::string& name,
-                              double step, double filter) {
+std::vector<Forces> forces_of(const Recording& recording, const std::string& name, double step,
+                              double filter) {
+  const auto& rows = recording.rows;
   std::vector<Forces> out;
   if (rows[0].size() == 2) {
     for (const auto& row : rows) out.push_back({row[0], row[1]});
     return out;
   }
-  if (rows[0].size() != 3)
-    throw InputError({Problem{name, 1, 1, "", std::string("expected ") + kForces}});
-  const double taken = even_step(rows, name);
+  const double taken = even_step(recording, name);
   if (filter > 0 && filter * taken >= 0.5) {
     throw InputError({Problem{
         name, 1, 1, "",
@@ -56,6 +65,19 @@ void add_step(double time, SlipState state, double current, double step, Swipe& 
     swipe.steps.push_back({time, state, current});
 }
 
+// Mean pull of the carrier at a peak current.
+double carrier_pull(const Network& network, const Drive& drive, double current) {
+  constexpr DriveControl kControl = DriveControl::Current;
+  if (drive.waveform == Waveform::Dc) return respond(network, kControl, current, 0).mean_force;
+  if (drive.waveform != Waveform::Square)
+    return respond(network, kControl, current, drive.frequency).mean_force;
+  constexpr std::size_t kSamples = 4096;  // of a cycle with edges
+  return force_series(network, kControl,
+                      source_signal(Waveform::Square, current, drive.frequency, {}, 1,
+                                    1 / drive.frequency, kSamples))
+      .mean_force;
+}
+
 }  // namespace
 
 StictionOptions SwipeSettings::machine(double current) const {
@@ -71,7 +93,7 @@ Swipe run_swipe(const std::string& csv, const std::string& name, const StictionO
   StictionMachine machine(options);
   Swipe swipe;
   const auto forces =
-      forces_of(number_rows(csv, name, "lateral", kForces), name, options.step, filter);
+      forces_of(read_recording(csv, name, force_columns()), name, options.step, filter);
   for (std::size_t i = 0; i < forces.size(); ++i) {
     const double current = machine.update(forces[i].lateral, forces[i].normal);
     add_step(static_cast<double>(i) * options.step, machine.state(), current, options.step, swipe);
@@ -83,15 +105,21 @@ Swipe run_swipe(const std::string& csv, const std::string& name, const StictionO
 Swipe render_swipe(const DriveCase& c, const Network& network) {
   if (c.drive.control != DriveControl::Current)
     throw InputError("stickiness is rendered by a current: set drive.control = \"current\"");
+  if (!c.recording.value.empty() || c.source.chirp_to > 0)
+    throw InputError(
+        "stickiness is rendered by the amplitude of a carrier, and a recording or a chirp is none: "
+        "set no source.file and no source.chirp_to");
   const SwipeSettings& s = c.swipe;
   const StictionOptions options = s.machine(c.drive.current);
   const RubbingFinger finger{c.touch.load, s.stroke, s.frequency,
                              s.stiffness,  s.filter, s.duration};
-  const double carrier = c.drive.waveform == Waveform::Dc ? 0 : c.drive.frequency;
   Swipe swipe;
+  swipe.without_tones = c.modulated();
+  std::map<double, double> pulls;  // by current, of which each state has one
   swipe.samples = rub(finger, options, [&](double current) {
-    const double pull = respond(network, DriveControl::Current, current, carrier).mean_force;
-    return c.touch.coefficient * (c.touch.load + pull);
+    const auto [pull, is_new] = pulls.try_emplace(current);
+    if (is_new) pull->second = carrier_pull(network, c.drive, current);
+    return c.touch.coefficient * (c.touch.load + pull->second);
   });
   for (const RubbingSample& at : swipe.samples)
     add_step(at.time, at.state, at.current, options.step, swipe);

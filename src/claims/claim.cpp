@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "base/check.h"
@@ -86,8 +87,9 @@ Part in_band(std::string name, const SkinEstimate& e, double low, double high) {
 Judgement all_of(const std::vector<Part>& parts, const std::string& why_not) {
   std::string list;
   const Part* shown = &parts.front();
-  bool all = true;
+  bool all = true, numbers = true;
   for (const Part& p : parts) {
+    numbers = numbers && !std::isnan(p.value.value);
     list += fmt::format("{}{} {:.3g} ± {:.2g}{}", list.empty() ? "" : "; ", p.name, p.value.value,
                         p.value.se, p.holds ? "" : " (no)");
     if (!p.single.empty()) list += fmt::format(" [{:.0f} %]", 100 * share_of(p.single));
@@ -100,6 +102,7 @@ Judgement all_of(const std::vector<Part>& parts, const std::string& why_not) {
       agrees_if(all, shown->value.value, shown->value.se,
                 fmt::format("{:.3g} ± {:.2g}", shown->value.value, shown->value.se), reason);
   out.single = on_single_patches(parts);
+  if (!numbers) out.verdict = Verdict::NotTestable;
   return out;
 }
 

@@ -69,7 +69,7 @@ inline bool within(double value, double low, double high) { return value >= low 
 Judgement agrees_if(bool agrees, double value, double se, std::string model,
                     std::string reason = "");
 // A claim about several numbers holds when all do; the number shown is the first that does not,
-// else the first.
+// else the first. One that is none, as a change of nothing is, leaves nothing to judge.
 struct Part {
   std::string name;
   Estimate value;

@@ -179,17 +179,19 @@ void add_input_errors(FigureTables& tables, const std::vector<PublishedTarget>& 
   if (options.finger.belief.empty()) return;
   std::vector<PrintedNumber>& printed = tables.printed;
   const Belief belief = belief_of(options.finger);
+  std::vector<double> weights;
   std::vector<std::vector<double>> values(printed.size());
   for (std::size_t k = 0; k < belief.members.size(); ++k) {
     if (options.started)
       options.started(fmt::format("belief, member {} of {}", k + 1, belief.members.size()));
     FingerModel model(member_finger(belief, belief.members[k], options.finger), Preset::Papilla,
                       options.threads, kMemberSampling);
+    weights.push_back(belief.members[k].weight);
     for (std::size_t i = 0; i < printed.size(); ++i)
       values[i].push_back(targets[i].model(model).value);
   }
   for (std::size_t i = 0; i < printed.size(); ++i)
-    printed[i].input_sd = deviation_over(belief, values[i]);
+    printed[i].input_sd = deviation_over(weights, values[i]);
   add_nearest(tables, belief, values);
 }
 

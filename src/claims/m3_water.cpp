@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/constants.h"
 #include "base/parallel.h"
@@ -182,8 +183,11 @@ Judgement bridges_in_holes(FingerModel& model) {
       spanning += p.texture.z[grid.index(ix, iy)] < high - 0.5 * depth;
     }
   }
-  const double share = all > 0 ? 100 * spanning / all : 0;
-  const double se = all > 0 ? 100 * std::sqrt(std::max(spanning, 1.0)) / all : 0;
+  if (all == 0)
+    return {Verdict::NotTestable, std::numeric_limits<double>::quiet_NaN(), 0, "no bridge",
+            "at 75 % RH no droplet of this finger bridges skin and glass"};
+  const double share = 100 * spanning / all;
+  const double se = 100 * std::sqrt(std::max(spanning, 1.0)) / all;
   return agrees_if(share < 5, share, se, fmt::format("{:.1f} ± {:.1f} %", share, se),
                    fmt::format("{:.0f} of {:.0f} bridges at 75 % RH stand on the floor of a hole",
                                spanning, all));

@@ -1,5 +1,6 @@
 #include "claims/members.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -13,12 +14,18 @@ Finger member_finger(const Belief& belief, const BeliefMember& member, const Fin
   return std::move(at.finger);
 }
 
-double deviation_over(const Belief& belief, std::span<const double> values) {
-  double mean = 0, squares = 0;
-  for (std::size_t k = 0; k < values.size(); ++k) mean += belief.members[k].weight * values[k];
-  for (std::size_t k = 0; k < values.size(); ++k)
-    squares += belief.members[k].weight * square(values[k] - mean);
-  return std::sqrt(squares);
+double deviation_over(std::span<const double> weights, std::span<const double> values) {
+  constexpr double kRounding = 1e-9;  // of the largest
+  double mean = 0, squares = 0, all = 0, largest = 0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    all += weights[k];
+    mean += weights[k] * values[k];
+    largest = std::max(largest, std::abs(values[k]));
+  }
+  mean /= all;
+  for (std::size_t k = 0; k < values.size(); ++k) squares += weights[k] * square(values[k] - mean);
+  const double out = std::sqrt(squares / all);
+  return out > kRounding * largest ? out : 0;
 }
 
 }  // namespace papilla::claims

@@ -11,7 +11,8 @@ namespace papilla::claims {
 // The finger at a member, calibrated for that member's choices of the model.
 Finger member_finger(const Belief& belief, const BeliefMember& member, const Finger& finger);
 
-// Standard deviation over the members of values, one of each. Eq. accuracy.16
-double deviation_over(const Belief& belief, std::span<const double> values);
+// Standard deviation over members of values, one of each; 0 where they differ by rounding alone.
+// weights: of these members, of any sum. Eq. accuracy.16
+double deviation_over(std::span<const double> weights, std::span<const double> values);
 
 }  // namespace papilla::claims

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "base/constants.h"
 #include "design/design.h"
@@ -62,13 +63,7 @@ class Series {
     }
     fidelity.threads = options.threads;
     for (const Setting& setting : settings) {
-      Design design = read_design(find_design("m3_samples/" + sample + ".toml"), setting.keys);
-      const Finger touch = design.finger;
-      design.finger = options.finger;
-      design.finger.load = touch.load;
-      design.finger.state = touch.state;
-      design.finger.touch_time = touch.touch_time;
-      design.model = options.finger.calibrated_for;
+      const Design design = predicted_design(options.finger, sample, setting.keys);
       responses_.push_back(evaluate(scene_of(design), design.texture, fidelity));
     }
   }
@@ -273,8 +268,9 @@ class Predictor {
       const Optics seen = forward::appearance(design.texture, design.surface, design.view);
       if (seen.refused()) continue;
       const std::string glass = fmt::format("etched glass, {} nm rms, roll-off 3 um", rms);
-      out_.push_back({"haze", glass, "haze", "%", {100 * seen.haze, 0}, seen.warning});
-      out_.push_back({"gloss at 60 deg", glass, "gloss", "GU", {seen.gloss, 0}, seen.warning});
+      out_.push_back({"haze", glass, "haze", "%", {100 * seen.haze, 0}, seen.warning, false});
+      out_.push_back(
+          {"gloss at 60 deg", glass, "gloss", "GU", {seen.gloss, 0}, seen.warning, false});
     }
   }
 
@@ -284,10 +280,7 @@ class Predictor {
     constexpr std::array kFelt{0.2};
     for (const char* sample : {"flat", "a3h600"}) {
       for (const double rh : {0.15, 0.75}) {
-        Design design =
-            read_design(find_design(fmt::format("m3_samples/{}.toml", sample)), {humidity(rh)});
-        design.finger = options_.finger;
-        design.model = options_.finger.calibrated_for;
+        const Design design = predicted_design(options_.finger, sample, {humidity(rh)});
         Fidelity fidelity = fidelity_level("draft");
         fidelity.grid = std::min(fidelity.grid, options_.grid);
         fidelity.skins = std::min(fidelity.skins, options_.skins);
@@ -327,6 +320,14 @@ class Predictor {
 
 }  // namespace
 
+Design predicted_design(const Finger& finger, const std::string& sample,
+                        const std::vector<std::string>& keys) {
+  Design out = read_design(find_design("m3_samples/" + sample + ".toml"), keys);
+  out.finger = finger.touching_as(out.finger);
+  out.model = finger.calibrated_for;
+  return out;
+}
+
 std::vector<Prediction> predictions(const PredictOptions& options) {
   Predictor predictor(options);
   predictor.over_load();
@@ -337,7 +338,7 @@ std::vector<Prediction> predictions(const PredictOptions& options) {
   predictor.wet_over_clean();
   predictor.over_touch_time();
   predictor.adhesion();
-  predictor.look();
+  if (!options.few) predictor.look();
   predictor.felt();
   return std::move(predictor).all();
 }

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "base/rooms.h"
+#include "design/design.h"
 #include "numerics/statistics.h"
+#include "scene/belief.h"
 #include "scene/finger.h"
 
 namespace papilla::claims {
@@ -21,16 +23,18 @@ struct Prediction {
   std::string unit;       // "", "V", "mN", "%"
   Estimate value;         // se: over skins
   std::string beside;     // the values behind it
-  // Standard deviation over the members of the finger's belief; nothing: it has none, or one of
-  // them has no number here.
+  bool of_finger = true;  // false: a look, which hangs on none
+  // Standard deviation over the members of the finger's belief that have an answer here; nothing:
+  // it names no belief, too few have one, or the number hangs on no finger.
   std::optional<double> model{};
+  int members = 0, silent = 0;  // of the belief; and those of them without an answer
 };
 
 struct PredictOptions {
   Finger finger;
   int threads = 0;
   int skins = 16, grid = 128;
-  bool few = false;  // as members of a belief are run: the load law, no 3-D field
+  bool few = false;  // as members of a belief are run: the load law, no 3-D field, no looks
   std::function<void(const std::string& experiment)> started;
 };
 
@@ -39,9 +43,17 @@ struct PredictOptions {
 // minutes.
 std::vector<Prediction> predictions(const PredictOptions& options);
 
-// Adds what the finger's belief leaves of each: the same experiments at every member, on few skins
-// and pixels, less those of the finger itself on these. Nothing for a finger without belief. Cost:
-// about twice that of the predictions. Eq. accuracy.15
+// A published sample with keys of its design, under that finger: how it is touched (load, state,
+// touch time) is the sample's.
+Design predicted_design(const Finger& finger, const std::string& sample,
+                        const std::vector<std::string>& keys);
+
+// Adds what the finger's belief leaves of each: the spread of the same experiments over its
+// members, on few skins and pixels that are common to them (u_input of Eq. accuracy.16). Nothing
+// for a finger without belief. Cost: about twice that of the predictions.
 void add_model_parts(std::vector<Prediction>& predictions, const PredictOptions& options);
+// The same of what each member predicts, in the order of the belief.
+void take_model_parts(std::vector<Prediction>& predictions, const Belief& belief,
+                      const std::vector<std::vector<Prediction>>& members);
 
 }  // namespace papilla::claims

@@ -8,6 +8,8 @@ namespace papilla::claims {
 namespace {
 
 constexpr int kMemberSkins = 4, kMemberGrid = 64;
+// Members with an answer from which on their spread is told.
+constexpr std::size_t kLeastMembers = 5;
 
 std::vector<Prediction> few_predictions(const PredictOptions& options, const Finger& finger) {
   PredictOptions few = options;
@@ -36,12 +38,23 @@ void add_model_parts(std::vector<Prediction>& predictions, const PredictOptions&
     if (options.started) options.started("belief, a member of " + m.hypothesis);
     members.push_back(few_predictions(options, member_finger(belief, m, options.finger)));
   }
+  take_model_parts(predictions, belief, members);
+}
+
+void take_model_parts(std::vector<Prediction>& predictions, const Belief& belief,
+                      const std::vector<std::vector<Prediction>>& members) {
   for (Prediction& p : predictions) {
-    std::vector<double> values;
-    for (const std::vector<Prediction>& member : members) {
-      if (const Prediction* there = same(member, p)) values.push_back(there->value.value);
+    p.members = static_cast<int>(members.size());
+    if (!p.of_finger) continue;
+    std::vector<double> values, weights;
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      const Prediction* there = same(members[k], p);
+      if (!there) continue;
+      values.push_back(there->value.value);
+      weights.push_back(belief.members[k].weight);
     }
-    if (values.size() == members.size()) p.model = deviation_over(belief, values);
+    p.silent = p.members - static_cast<int>(values.size());
+    if (p.silent == 0 || values.size() >= kLeastMembers) p.model = deviation_over(weights, values);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "config/writer.h"
+#include "design/design.h"
 
 namespace papilla::claims {
 namespace {
@@ -47,6 +48,14 @@ double usual_seconds(const Claim& claim) {
   return found == kSeconds.end() ? 0 : found->second;
 }
 
+std::string judged_problem(const ReproduceOptions& options) {
+  const SkinSampling& skins = options.sampling;
+  return fmt::format(PAPILLA_VERSION " {} {} {} {} {}\n", skins.level, skins.skins,
+                     skins.first_skin, skins.grid, options.one_preset) +
+         to_toml(options.finger) + maps_state({}, options.finger) + "\n" +
+         designs_state("m3_samples") + designs_state("coatings");
+}
+
 std::vector<ClaimResult> reproduce(const ReproduceOptions& options) {
   check_ids(options.ids);
   std::vector<const Claim*> asked;
@@ -55,14 +64,8 @@ std::vector<ClaimResult> reproduce(const ReproduceOptions& options) {
         std::find(options.ids.begin(), options.ids.end(), claim.id) != options.ids.end())
       asked.push_back(&claim);
   }
-  const SkinSampling& skins = options.sampling;
   KeptResults kept;
-  if (!options.folder.empty()) {
-    kept = KeptResults(options.folder,
-                       fmt::format(PAPILLA_VERSION " {} {} {} {} {}\n", skins.level, skins.skins,
-                                   skins.first_skin, skins.grid, options.one_preset) +
-                           to_toml(options.finger));
-  }
+  if (!options.folder.empty()) kept = KeptResults(options.folder, judged_problem(options));
   std::vector<ClaimResult> results;
   double left = 0;
   for (const Claim* claim : asked) {

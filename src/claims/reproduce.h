@@ -29,6 +29,10 @@ struct ReproduceOptions {
   std::function<void(const Claim&, double left)> begun;
   std::function<void(const ClaimResult&)> done;  // after each claim
 };
+// All that judgements depend on but their claims, the samples on disk among it: those of another
+// problem are not gone on with.
+std::string judged_problem(const ReproduceOptions& options);
+
 // In the order of the list. Throws InputError for an id that is not there, WorkStopped where a
 // Watch ends it: what has been judged lies in the folder, and the same call goes on there.
 std::vector<ClaimResult> reproduce(const ReproduceOptions& options);

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "base/constants.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/scan_options.h"
@@ -13,6 +14,7 @@
 #include "estimate/target.h"
 #include "forward/price.h"
 #include "forward/skips.h"
+#include "geometry/texture.h"
 #include "report/response.h"
 #include "search/levels.h"
 #include "search/tasks.h"
@@ -104,6 +106,30 @@ std::string time_text(const Design& design, const Fidelity& fidelity, const Plan
   return out + '\n';
 }
 
+// Rims so large that the floor cuts them: what the walls lose by it, where it moves an edge by more
+// than a per cent of the features; "" elsewhere. Eq. geometry.1
+std::string cut_rims(Texture texture) {
+  const Outline outline = facts(texture).outline;
+  const Roles role = roles(texture);
+  const auto* array = std::get_if<FeatureArray>(&outline);
+  if (!array || !role.depth || !role.wall_angle || !role.edge_radius) return {};
+  const double depth = *role.depth, angle = *role.wall_angle, radius = *role.edge_radius;
+  const double largest = depth / (1 - std::cos(angle));
+  if (!(depth > 0) || radius <= largest) return {};
+  // Half-way down, as far inside the edge as the arc and as a wall without one.
+  const double half = 0.5 * depth;
+  const double arc = std::sqrt(half * (2 * radius - half)) - radius * std::tan(0.5 * angle);
+  const double sharp = half / std::tan(angle);
+  const auto width = [&](double inside) { return array->width + (array->deep ? -2 : 2) * inside; };
+  if (std::abs(width(arc) - width(sharp)) <= 0.01 * array->width) return {};
+  return fmt::format(
+      "rims of {:.4g} nm end at the depth of {:.4g} nm before the wall is {:.4g} deg steep: {} are "
+      "{:.3g} um wide half-way down, {:.3g} um with sharp rims; below {:.3g} nm the wall has its "
+      "angle",
+      1e9 * radius, 1e9 * depth, angle * 180 / kPi, array->drawn, 1e6 * width(arc),
+      1e6 * width(sharp), 1e9 * largest);
+}
+
 int explain(const Context& context, const DesignOptions& options, bool measure) {
   const Study study = options.study();
   const Design& design = study.design;
@@ -130,6 +156,8 @@ int explain(const Context& context, const DesignOptions& options, bool measure) 
   text += plan.text();
   text += time_text(design, fidelity, plan);
   for (const std::string& line : calibration_mismatch(design)) text += "warning: " + line + '\n';
+  if (const std::string rims = cut_rims(design.texture); !rims.empty())
+    text += "warning: " + rims + '\n';
   if (const std::string why = frequency_not_felt(design); design.drive.driven() && !why.empty())
     text += "frequency not felt: " + why + '\n';
   if (study.is_study()) text += study_text(study);

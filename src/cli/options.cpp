@@ -67,6 +67,10 @@ template Option Option::range(int, int) const;
 template Option Option::range(long, long) const;
 template Option Option::range(double, double) const;
 
+std::string Option::name() const { return option_->get_name(); }
+
+bool Option::given() const { return option_->count() > 0; }
+
 Command Command::add_command(const std::string& name, const std::string& meaning) const {
   return Command(app_->add_subcommand(std::make_shared<DocumentedApp>(meaning, name, app_)));
 }

@@ -36,6 +36,9 @@ class Option {
   template <typename T>
   Option range(T low, T high) const;
 
+  std::string name() const;  // "--out"
+  bool given() const;        // on the command line, once it is read
+
  private:
   CLI::Option* option_;
 };

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "base/constants.h"
 #include "base/error.h"
@@ -24,14 +26,24 @@ struct DropletsOptions {
   double spread = 1.0 / 3;
   bool pinning = false, wicking = false;
   bool json = false;
+  std::vector<Option> of_gap, of_design;  // that only one of the two obeys
 };
+
+// Throws InputError.
+void refuse(const std::vector<Option>& options, const std::string& whose) {
+  for (const Option& option : options) {
+    if (option.given()) throw InputError(option.name() + " is of " + whose);
+  }
+}
 
 DropletCase case_of(const DropletsOptions& options) {
   if (!options.design.empty()) {
+    refuse(options.of_gap, "--gap; a design has its own");
     const double rh = parse_si(options.humidity, "%");
     if (!(rh >= 0 && rh <= 1)) throw InputError("--humidity is 0 to 100 %");
     return droplets_of_design(options.design, rh, options.skin, options.pinning, options.wicking);
   }
+  refuse(options.of_design, "--design");
   DropletCase c =
       droplets_of_file(options.gap_file, options.size.empty() ? 0 : parse_si(options.size, "um"));
   c.volume = parse_si(options.volume, "um3");
@@ -100,24 +112,36 @@ void add_solve_droplets(Command solve_command, Context& context) {
   where.add_option("--gap", options->gap_file, "Heightmap of the gap: .npy, .gsf, .exr, .tif");
   where.add_option("--design", options->design,
                    "Design file: gap of its dry contact, water and angles of its finger");
-  command.add_option("--humidity", options->humidity, "Of the design").show_default();
-  command.add_option("--skin", options->skin, "Skin patch of the design, from 0")
-      .range(0, 1000000)
-      .show_default();
-  command.add_option("--size", options->size, "Lateral size in x where the file does not say");
-  command.add_option("--volume", options->volume, "Water in the patch").show_default();
-  command.add_option("--theta-skin", options->theta_skin, "Contact angle on the skin")
-      .show_default();
-  command.add_option("--theta-substrate", options->theta_substrate, "Contact angle on the surface")
-      .show_default();
-  command.add_option("--surface-tension", options->surface_tension, "Of the sweat").show_default();
-  command.add_option("--hysteresis", options->hysteresis, "cos(receding) - cos(advancing), 0 to 2")
-      .range(0.0, 2.0)
-      .show_default();
-  command.add_option("--drops-per-um3", options->drops_per_um3, "Droplets that a volume starts as")
-      .show_default();
-  command.add_option("--step", options->step, "First step of a droplet: its mobility")
-      .show_default();
+  options->of_design = {
+      command.add_option("--humidity", options->humidity, "Of the design").show_default(),
+      command.add_option("--skin", options->skin, "Skin patch of the design, from 0")
+          .range(0, 1000000)
+          .show_default(),
+      command.add_flag("--pin-edges", options->pinning,
+                       "Design: lines do not pass the edges of holes"),
+      command.add_flag("--wick-corners", options->wicking,
+                       "Design: droplets at the foot of a wall creep along it"),
+  };
+  options->of_gap = {
+      command.add_option("--size", options->size, "Lateral size in x where the file does not say"),
+      command.add_option("--volume", options->volume, "Water in the patch").show_default(),
+      command.add_option("--theta-skin", options->theta_skin, "Contact angle on the skin")
+          .show_default(),
+      command
+          .add_option("--theta-substrate", options->theta_substrate, "Contact angle on the surface")
+          .show_default(),
+      command.add_option("--surface-tension", options->surface_tension, "Of the sweat")
+          .show_default(),
+      command
+          .add_option("--hysteresis", options->hysteresis, "cos(receding) - cos(advancing), 0 to 2")
+          .range(0.0, 2.0)
+          .show_default(),
+      command
+          .add_option("--drops-per-um3", options->drops_per_um3, "Droplets that a volume starts as")
+          .show_default(),
+      command.add_option("--step", options->step, "First step of a droplet: its mobility")
+          .show_default(),
+  };
   command.add_option("--seed", options->seed, "Seed of the placement")
       .range(0L, 1L << 53)
       .show_default();
@@ -131,9 +155,6 @@ void add_solve_droplets(Command solve_command, Context& context) {
       "--out", options->picture,
       "PNG of the initial (left) and final droplets: bridges blue, film cyan, on the "
       "surface orange, on the skin magenta; gap in grey");
-  command.add_flag("--pin-edges", options->pinning, "Design: lines do not pass the edges of holes");
-  command.add_flag("--wick-corners", options->wicking,
-                   "Design: droplets at the foot of a wall creep along it");
   command
       .add_option("--placements", options->seeds,
                   "Placements of a low and a high volume each, with standard errors")

@@ -15,13 +15,17 @@ struct MeanFieldCommand : DesignOptions {
   std::string out;
 };
 
-void write_curves(const std::string& folder, const MeanFieldCase& c) {
+void write_curves(const Context& context, const std::string& folder, const MeanFieldCase& c) {
   make_folder(folder);
   const MeanFieldCurves curves = mean_field_curves(c);
   write_bytes(folder + "/roughness.csv", roughness_csv(curves));
   write_bytes(folder + "/separation.csv", separation_csv(curves));
   if (!curves.stress.empty()) write_bytes(folder + "/stress.csv", stress_csv(curves));
-  if (!curves.step.empty()) write_bytes(folder + "/step.csv", step_csv(curves));
+  if (!curves.step.empty()) {
+    write_bytes(folder + "/step.csv", step_csv(curves));
+  } else if (c.interface.lossy_skin && !curves.stress.empty()) {
+    context.note("no step.csv: no dielectric holds the voltage after a step");
+  }
   if (!curves.grid.empty()) write_bytes(folder + "/grid.csv", mean_field_grid_csv(curves.grid));
 }
 
@@ -32,7 +36,7 @@ int solve(const Context& context, const MeanFieldCommand& options) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!options.out.empty()) {
-    write_curves(options.out, c);
+    write_curves(context, options.out, c);
     context.note("wrote " + options.out);
   }
   std::cout << (options.json ? mean_field_json(c, r, seconds) + '\n'

@@ -49,9 +49,13 @@ NameAndUnit parted(std::string_view cell, const std::vector<ColumnKind>& kinds) 
 
 TableColumn read_column(std::string_view cell, const std::vector<ColumnKind>& kinds) {
   const NameAndUnit is = parted(cell, kinds);
-  const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const ColumnKind& k) {
+  const auto named = [&](const ColumnKind& k) {
     return k.name == is.name || std::find(k.also.begin(), k.also.end(), is.name) != k.also.end();
+  };
+  auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const ColumnKind& k) {
+    return named(k) && k.unit.empty() == is.unit.empty();
   });
+  if (kind == kinds.end()) kind = std::find_if(kinds.begin(), kinds.end(), named);
   if (kind == kinds.end()) return {};
   if (kind->is_text || kind->unit.empty()) return {&*kind, 1};
   // "%" is no letter of a name.

@@ -14,7 +14,8 @@
 
 namespace papilla::config {
 
-// A quantity that a table may have a column of.
+// A quantity that a table may have a column of. Of two that share a name, one with and one without
+// a unit, a cell stands for the one that is written as it is.
 struct ColumnKind {
   std::string name;  // "load"; what people write before the unit
   std::string unit;  // of its dimension: "N"; "": a plain number or a text

@@ -50,9 +50,23 @@ std::vector<std::string> split_path(const std::string& path) {
   return parts;
 }
 
+// As lists are counted: 0, 1, ...; no zero before another digit.
 bool is_index(const std::string& part) {
-  return !part.empty() && part.size() < 6 &&
+  return !part.empty() && part.size() < 6 && (part.size() == 1 || part.front() != '0') &&
          part.find_first_not_of("0123456789") == std::string::npos;
+}
+
+// A table { 0 = ..., 2 = ... } that stands for single items of a list.
+bool names_items(const Node& node) {
+  return node.is_table() && !node.children.empty() &&
+         std::all_of(node.children.begin(), node.children.end(),
+                     [](const Node& child) { return is_index(child.key); });
+}
+
+// "" where the list has the item.
+std::string missing_item(const std::string& index, std::size_t count) {
+  if (is_index(index) && std::stoul(index) < count) return {};
+  return fmt::format("no item {} in a list of {}", index, count);
 }
 
 const Node* find_path(const Node& root, const std::string& path) {
@@ -133,17 +147,37 @@ bool same_type(const Node& a, const Node& b) {
   return !type_a || !type_b || type_a->text == type_b->text;
 }
 
-// Puts `base` below `top`: members of `top` win, tables merge.
-void merge_below(Node& top, const Node& base) {
+Node with_items(Node list, Node items, const std::string& path);
+
+// Puts `base` below `top`: members of `top` win, tables merge, and single items of a list go into
+// the base's list. path: of both.
+void merge_below(Node& top, const Node& base, const std::string& path) {
   if (!same_type(top, base)) return;
   for (const Node& child : base.children) {
     Node* mine = top.find(child.key);
     if (!mine) {
       top.children.push_back(child);
     } else if (mine->is_table() && child.is_table()) {
-      merge_below(*mine, child);
+      merge_below(*mine, child, join_path(path, child.key));
+    } else if (child.is_array() && names_items(*mine)) {
+      *mine = with_items(child, std::move(*mine), join_path(path, child.key));
     }
   }
+}
+
+// A list in which some items are others. Throws InputError for items that it has not.
+Node with_items(Node list, Node items, const std::string& path) {
+  list.not_set = false;
+  for (Node& item : items.children) {
+    if (const std::string missing = missing_item(item.key, list.children.size()); !missing.empty())
+      throw InputError({Problem{item.key_place.file, item.key_place.line, item.key_place.column,
+                                path, missing}});
+    Node& below = list.children[std::stoul(item.key)];
+    if (item.is_table() && below.is_table()) merge_below(item, below, join_path(path, item.key));
+    item.key.clear();
+    below = std::move(item);
+  }
+  return list;
 }
 
 bool inside(const fs::path& file, const fs::path& folder) {
@@ -172,15 +206,16 @@ struct BaseFiles {
   }
 
   // Resolves the `base` of a table and of the tables within, nearest first: what a section's own
-  // base says stands above what the file's base says of that section. head: the table is a file's.
-  void resolve(Node& table, bool head) {
+  // base says stands above what the file's base says of that section. head: the table is a file's;
+  // path: of the table, in the file.
+  void resolve(Node& table, bool head, const std::string& path) {
     for (Node& child : table.children) {
-      if (child.is_table()) resolve(child, false);
+      if (child.is_table()) resolve(child, false, join_path(path, child.key));
     }
     if (const Node* base = table.find("base"); base && base->is_text()) {
       const Node value = *base;
       std::erase_if(table.children, [](const Node& child) { return child.key == "base"; });
-      merge_below(table, read(value, head));
+      merge_below(table, read(value, head), path);
     } else if (base) {
       throw InputError({Problem{base->place.file, base->place.line, base->place.column, "base",
                                 "expected the name of a file, got " + describe(*base)}});
@@ -217,7 +252,7 @@ struct BaseFiles {
     }
     if (head) heads.push_back(found);
     open.push_back(file);
-    resolve(table, head);
+    resolve(table, head, "");
     open.pop_back();
     return table;
   }
@@ -293,11 +328,11 @@ void apply(Node& root, const Override& change) {
     const std::string key = key_of(*node, parts, i);
     const bool last = i + 1 == parts.size();
     if (node->is_array()) {
-      const std::size_t index = is_index(parts[i]) ? std::stoul(parts[i]) : node->children.size();
-      if (index >= node->children.size()) {
-        refuse(fmt::format("no item {} in a list of {}", parts[i], node->children.size()));
-      }
-      Node& item = node->children[index];
+      if (const std::string missing = missing_item(parts[i], node->children.size());
+          !missing.empty())
+        refuse(missing);
+      node->not_set = false;
+      Node& item = node->children[std::stoul(parts[i])];
       if (last) item = change.value;
       node = &item;
     } else if (node->is_table()) {
@@ -340,7 +375,7 @@ Node with_overrides_and_bases(Node root, const std::vector<std::string>& overrid
       change.value.place.file = root.place.file;
     apply(root, change);
   }
-  if (bases) bases->resolve(root, true);
+  if (bases) bases->resolve(root, true, "");
   // Kinds first: they clear the keys of the kind before.
   std::stable_partition(changes.begin(), changes.end(),
                         [](const Override& change) { return change.path.ends_with("type"); });
@@ -517,10 +552,13 @@ struct Document::State final : public FieldVisitor {
     });
     if (!node) return;
     const std::string path = join_path(frame().path, spec.key);
-    if (changes_items(*node, path, static_cast<int>(si.size()))) {
+    if (changes_items(*node, path, si.size())) {
       for (std::size_t i = 0; i < si.size(); ++i) {
-        if (const Node* item = node->find(std::to_string(i)))
-          convert(spec, *item, fmt::format("{}.{}", path, i), si[i]);
+        const std::string at = fmt::format("{}.{}", path, i);
+        const Node* item = node->find(std::to_string(i));
+        if (!item) continue;
+        origins[at] = item->place;
+        convert(spec, *item, at, si[i]);
       }
       return;
     }
@@ -535,7 +573,10 @@ struct Document::State final : public FieldVisitor {
     std::vector<double> result(node->children.size());
     bool good = true;
     for (std::size_t i = 0; i < result.size(); ++i) {
-      good &= convert(spec, node->children[i], fmt::format("{}.{}", path, i), result[i]);
+      const Node& item = node->children[i];
+      const std::string at = fmt::format("{}.{}", path, i);
+      if (item.place.file != node->place.file) origins[at] = item.place;  // set alone
+      good &= convert(spec, item, at, result[i]);
     }
     if (good) si = std::move(result);
   }
@@ -636,16 +677,13 @@ struct Document::State final : public FieldVisitor {
     stack.push_back({table, path, partial});
   }
 
-  // Items set one by one (--set surface.dielectric.0.thickness=1 um) in a list that the file leaves
-  // at its default. Reports indices beyond it.
-  bool changes_items(const Node& node, const std::string& path, int count) {
-    if (!node.is_table() || node.children.empty() ||
-        !std::all_of(node.children.begin(), node.children.end(),
-                     [](const Node& child) { return is_index(child.key); }))
-      return false;
+  // Items set one by one (surface.dielectric.0.thickness = "1 um") in a list that the file and its
+  // bases leave at its default. Reports indices beyond it.
+  bool changes_items(const Node& node, const std::string& path, std::size_t count) {
+    if (!names_items(node)) return false;
     for (const Node& child : node.children) {
-      if (std::stoi(child.key) >= count)
-        problem(child.place, path, fmt::format("no item {} in a list of {}", child.key, count));
+      if (const std::string missing = missing_item(child.key, count); !missing.empty())
+        problem(child.place, path, missing);
     }
     return true;
   }
@@ -669,7 +707,7 @@ struct Document::State final : public FieldVisitor {
     const Node* node =
         value(spec.key, spec.presence, [&] { return std::string(spec.doc) + "), a list"; });
     const std::string path = join_path(frame().path, spec.key);
-    const bool items = node && changes_items(*node, path, current);
+    const bool items = node && changes_items(*node, path, static_cast<std::size_t>(current));
     if (node && !node->is_array() && !items) {
       problem(node->place, path,
               fmt::format("expected a list of sections, [[{}]] or [{{ ... }}], got {}", path,

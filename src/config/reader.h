@@ -8,6 +8,8 @@
 // file's head or in a section (then the other file holds that section's keys). A base is looked for
 // beside the file that names it, then under the search roots, and never outside the first file's
 // folder or a root. A section whose `type` differs from its base's replaces it instead of merging.
+// A list replaces its base's, too; water.volume.1 = "2 um3" or [surface.dielectric.1] changes one
+// item of it, or of the default list where no base has one.
 #pragma once
 
 #include <functional>
@@ -23,7 +25,9 @@
 
 namespace papilla::config {
 
-// Where each value that was read came from; a path that is absent has its default.
+// Where each value that was read came from; a path that is absent has its default. Numbers of a
+// list that were set one by one stand beside it (water.volume, water.volume.1): those that come
+// from the list's own file were set in a default list, others in a list of that file.
 using Origins = std::map<std::string, Place>;
 
 class Document {

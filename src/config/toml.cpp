@@ -64,19 +64,45 @@ Node convert(const toml::node& source, const std::string& file) {
 }
 
 // A dotted key makes one table a dot, and the parser walks them recursively: thousands would end
-// the process. Counted over every run of characters that a key can be made of.
+// the process. Counted over every run of characters that a key can be made of; a comment is none.
 void refuse_deep_keys(std::string_view text, const std::string& file) {
   constexpr int kDeepest = 200;
   int line = 1, dots = 0;
-  for (char c : text) {
-    if (c == '.') {
-      if (++dots > kDeepest) {
-        throw InputError({Problem{file, line, 1, "", "more than 200 dots in a key"}});
-      }
-    } else if (c == '\n' || c == '=' || c == ',') {
+  // A '#' in a quoted key begins no comment. None does in a line where a text of several lines may
+  // begin or end: what stands in quotes there is not known from the line alone.
+  char quote = 0;
+  bool comment = false, escaped = false;
+  const auto has_triple_quotes = [&](std::size_t begin) {
+    const std::string_view from = text.substr(begin);
+    const std::string_view rest = from.substr(0, from.find('\n'));
+    return rest.find("\"\"\"") != rest.npos || rest.find("'''") != rest.npos;
+  };
+  bool tripled = has_triple_quotes(0);  // this line
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\n') {
+      ++line;
       dots = 0;
+      quote = 0;
+      comment = escaped = false;
+      tripled = has_triple_quotes(i + 1);
+      continue;
     }
-    if (c == '\n') ++line;
+    if (comment) continue;
+    if (c == '.' && ++dots > kDeepest)
+      throw InputError({Problem{file, line, 1, "", "more than 200 dots in a key"}});
+    if (c == '=' || c == ',') dots = 0;
+    const bool quotes = c == '"' || c == '\'';
+    if (escaped) {
+      escaped = false;
+    } else if (quote != 0) {
+      escaped = c == '\\' && quote == '"';
+      if (c == quote) quote = 0;
+    } else if (quotes) {
+      quote = c;
+    } else if (c == '#') {
+      comment = !tripled;
+    }
   }
 }
 

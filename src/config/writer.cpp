@@ -19,25 +19,49 @@ std::string place_text(const Place& place) {
                         : place.file;
 }
 
+namespace {
+
+Node quantity_node(const NumberSpec& spec, double si) {
+  return *spec.unit && std::isfinite(si) ? text_node(format_quantity(si, spec.unit))
+                                         : number_node(si);
+}
+
+std::string default_text(Source source, const char* reference) {
+  return fmt::format("default ({}{}{})", source_name(source), *reference ? ": " : "", reference);
+}
+
+// Where the numbers of a list that were set one by one are from, before what is said of the list: a
+// comment that begins with "default" would say that nobody set any.
+void name_items(const Origins& origins, const std::string& path, const NumberSpec& spec,
+                std::size_t count, std::string& comment) {
+  const auto list = origins.find(path);
+  std::string single;
+  std::size_t named = 0;
+  bool in_default_list = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto found = origins.find(fmt::format("{}.{}", path, i));
+    if (found == origins.end()) continue;
+    single += fmt::format("{}{}: {}", named++ ? "; " : "", i, place_text(found->second));
+    in_default_list |= list != origins.end() && list->second.file == found->second.file;
+  }
+  if (named == 0) return;
+  if (in_default_list) comment = default_text(spec.source, spec.reference);
+  comment = named == count ? single : single + "; the others: " + comment;
+}
+
+}  // namespace
+
 void TableWriter::add(const char* key, Node value, Source source, const char* reference) {
   if (origins_) {
     const std::string path = paths_.back().empty() ? key : paths_.back() + "." + key;
     if (const auto found = origins_->find(path); found != origins_->end()) {
       value.comment = place_text(found->second);
     } else {
-      value.comment =
-          fmt::format("default ({}{}{})", source_name(source), *reference ? ": " : "", reference);
+      value.comment = default_text(source, reference);
     }
   }
   stack_.back().set(key, std::move(value));
 }
-
-namespace {
-Node quantity_node(const NumberSpec& spec, double si) {
-  return *spec.unit && std::isfinite(si) ? text_node(format_quantity(si, spec.unit))
-                                         : number_node(si);
-}
-}  // namespace
 
 void TableWriter::number(const NumberSpec& spec, double& si) {
   add(spec.key, quantity_node(spec, si), spec.source, spec.reference);
@@ -47,6 +71,9 @@ void TableWriter::numbers(const NumberSpec& spec, std::vector<double>& si) {
   std::vector<Node> items;
   for (const double value : si) items.push_back(quantity_node(spec, value));
   add(spec.key, array_node(std::move(items)), spec.source, spec.reference);
+  if (!origins_) return;
+  const std::string path = paths_.back().empty() ? spec.key : paths_.back() + "." + spec.key;
+  name_items(*origins_, path, spec, si.size(), stack_.back().find(spec.key)->comment);
 }
 
 void TableWriter::integer(const FieldSpec& spec, int, int, int& value) {

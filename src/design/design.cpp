@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 
 #include "base/files.h"
 #include "base/installation.h"
@@ -12,6 +13,7 @@
 #include "config/reader.h"
 #include "config/writer.h"
 #include "forward/counterface.h"
+#include "geometry/measured_map.h"
 #include "geometry/roughness.h"
 #include "physics/capillary/facts.h"
 #include "scene/belief.h"
@@ -54,37 +56,39 @@ void environment_problems(const Environment& air, Problems& out) {
   }
 }
 
-void finger_problems(const Finger& finger, const ModelOptions& model, Problems& out) {
+// at: of the finger in the file, "finger." or nothing where the file is a finger's; options: of the
+// model there.
+void finger_problems(const Finger& finger, const ModelOptions& model, const std::string& at,
+                     const std::string& options, Problems& out) {
   const SkinWater& water = finger.water;
   if (water.volume.empty() || water.volume.size() != water.relative_humidity.size()) {
     out.push_back(
-        {"finger.water.volume",
-         fmt::format("expected {} volumes, one per humidity of finger.water.relative_humidity, "
-                     "got {}",
-                     water.relative_humidity.size(), water.volume.size())});
+        {at + "water.volume",
+         fmt::format("expected {} volumes, one per humidity of {}water.relative_humidity, got {}",
+                     water.relative_humidity.size(), at, water.volume.size())});
   }
   for (std::size_t i = 1; i < water.relative_humidity.size(); ++i) {
     if (water.relative_humidity[i] <= water.relative_humidity[i - 1]) {
-      out.push_back({"finger.water.relative_humidity", "expected rising values"});
+      out.push_back({at + "water.relative_humidity", "expected rising values"});
       break;
     }
   }
-  if (finger.load <= 0) out.push_back({"finger.load", "expected a force above 0 N"});
+  if (finger.load <= 0) out.push_back({at + "load", "expected a force above 0 N"});
   if (finger.saturation.rest_low == finger.saturation.rest_high) {
-    out.push_back({"finger.saturation.rest_high", "expected another angle than rest_low"});
+    out.push_back({at + "saturation.rest_high", "expected another angle than rest_low"});
   }
   if (finger.skin.map.empty() && finger.skin.cutoff >= finger.skin.roll_off) {
-    out.push_back({"finger.skin.cutoff", "expected a shorter wavelength than roll_off"});
+    out.push_back({at + "skin.cutoff", "expected a shorter wavelength than roll_off"});
   }
   if (finger.skin.map.empty() && finger.skin.cutoff > Spectrum{}.reference_length) {
     out.push_back(
-        {"finger.skin.cutoff", "expected at most the 12 um that rms is of: no wave would be left"});
+        {at + "skin.cutoff", "expected at most the 12 um that rms is of: no wave would be left"});
   }
   if (!finger.skin.map.empty() && model.closure != Closure::Uniform) {
-    out.push_back({"finger.skin.map",
-                   "closures persson and balance take the spectrum of the skin; use model.closure "
-                   "= \"uniform\" "
-                   "with a map"});
+    out.push_back({at + "skin.map",
+                   fmt::format("closures persson and balance take the spectrum of the skin; use "
+                               "{}.closure = \"uniform\" with a map",
+                               options)});
   }
 }
 
@@ -264,7 +268,8 @@ std::vector<DesignProblem> design_problems(const Design& design) {
   if (design.title.size() > kLongestTitle)
     out.push_back({"title", "longer than 1000 letters; it is a line for reports"});
   environment_problems(design.environment, out);
-  if (!design.counterface.in_place()) finger_problems(design.finger, design.model, out);
+  if (!design.counterface.in_place())
+    finger_problems(design.finger, design.model, "finger.", "model", out);
   if (design.accuracy.grid > 0 && design.accuracy.grid < 16)
     out.push_back({"accuracy.grid", "expected 0 (by level) or at least 16 pixels"});
   drive_problems(design.drive, design.surface, out);
@@ -330,6 +335,35 @@ std::string find_design(const std::string& name) {
   throw InputError(name + " is in no designs folder; set PAPILLA_DESIGNS to the one that has it");
 }
 
+std::string maps_state(const Texture& texture, const Finger& finger) {
+  std::vector<MapVersion> maps = map_versions(texture);
+  if (!finger.skin.map.empty()) maps.push_back(map_version(finger.skin.map));
+  std::string out;
+  for (const MapVersion& map : maps)
+    out += fmt::format(" {} {}", map.written.time_since_epoch().count(), map.size);
+  return out;
+}
+
+std::string designs_state(const std::string& folder) {
+  std::set<std::string> names;
+  for (const std::string& root : design_roots()) {
+    std::error_code none;
+    for (const fs::directory_entry& entry : fs::directory_iterator(root + "/" + folder, none)) {
+      if (entry.path().extension() == ".toml") names.insert(entry.path().filename().string());
+    }
+  }
+  std::string out;
+  for (const std::string& name : names) {
+    try {
+      const Design design = read_design(find_design(folder + "/" + name));
+      out += fmt::format("# {}\n{}{}\n", name, to_toml(design),
+                         maps_state(design.texture, design.finger));
+    } catch (const InputError&) {  // whoever needs it is told why
+    }
+  }
+  return out;
+}
+
 std::string own_or_shipped(const std::string& file) {
   std::error_code ignored;
   if (file.empty() || fs::exists(file, ignored)) return file;
@@ -342,6 +376,10 @@ Finger read_finger(const std::string& path) {
   document.take("schema_version");
   Finger finger;
   read_section(document, "", finger);
+  Problems wrong_together;
+  if (document.problems().empty())  // else values may stand for ones that could not be read
+    finger_problems(finger, finger.calibrated_for, "", "calibrated_for", wrong_together);
+  for (const DesignProblem& p : wrong_together) document.problem_at(p.path, p.message);
   if (const std::string wrong = uncertainty_problem(finger); !wrong.empty())
     document.problem_at("uncertainty", wrong);
   for (const Problem& p : belief_problems(finger))

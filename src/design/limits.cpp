@@ -15,7 +15,8 @@
 namespace papilla::design {
 namespace {
 
-constexpr int kDigits = 4;  // of a value for people
+constexpr int kDigits = 4;      // of a value for people
+constexpr int kAllDigits = 12;  // of a limit: all that somebody writes
 
 double bounded(double violation) {
   constexpr double kLarge = 10;
@@ -136,7 +137,16 @@ bool keeps(const Constraint& limit, double value) { return violation(limit, valu
 std::string limit_value_text(const Constraint& limit, double value) {
   if (!std::isfinite(value)) return "none";
   const auto [number, unit] = shown(limit.on, value);
-  return significant(number, kDigits) + (unit.empty() ? "" : " " + unit);
+  const double asked = shown(limit.on, limit.limit).value;
+  // What is read keeps the limit where the value does, and breaks it where that does.
+  const double bound = std::stod(significant(asked, kAllDigits));
+  const auto reads_kept = [&](int digits) {
+    const double read = std::stod(significant(number, digits));
+    return !limit.at_least ? read <= bound : read >= bound || bound <= 0;
+  };
+  int digits = value == limit.limit ? kAllDigits : kDigits;
+  while (digits < kAllDigits && reads_kept(digits) != keeps(limit, value)) ++digits;
+  return significant(number, digits) + (unit.empty() ? "" : " " + unit);
 }
 
 std::string limit_text(const Constraint& limit) {

@@ -78,7 +78,8 @@ bool keeps(const Constraint& limit, double value);
 // 0 where it is not. Bounded by -1 and 11, yet larger for more.
 double violation(const Constraint& limit, double value);
 
-// For people: "0.4 um", "12 %", "36.3 mN"; "none" of an infinite one.
+// For people: "0.4 um", "12 %", "36.3 mN"; "none" of an infinite one. As few digits as tell whether
+// the limit is kept, and four or more.
 std::string limit_value_text(const Constraint& limit, double value);
 // "at least 0.4 um"
 std::string limit_text(const Constraint& limit);

@@ -9,6 +9,24 @@
 #include "geometry/measured_map.h"
 
 namespace papilla::design {
+namespace {
+
+struct NamedScan {
+  std::string section;  // "texture.parts.1"
+  ScanSource source;
+};
+
+void add_scans(const Texture& texture, const std::string& section, std::vector<NamedScan>& out) {
+  Texture copy = texture;
+  if (const std::vector<Texture>* parts = roles(copy).parts) {
+    for (std::size_t i = 0; i < parts->size(); ++i)
+      add_scans((*parts)[i], fmt::format("{}.parts.{}", section, i), out);
+    return;
+  }
+  for (const ScanSource& source : facts(texture).scans) out.push_back({section, source});
+}
+
+}  // namespace
 
 std::string text(const DesignScan& scan) {
   const ScanChanges& c = scan.changes;
@@ -16,8 +34,8 @@ std::string text(const DesignScan& scan) {
   if (scan.taken > 0 && scan.taken < (1 - 1e-9) * std::max(c.width, c.height)) {
     out += fmt::format(
         "; of its {:.4g} x {:.4g} um a square of {:.4g} um is the texture "
-        "(texture.patch, at_x, at_y){}",
-        1e6 * c.width, 1e6 * c.height, 1e6 * scan.taken,
+        "({}.patch, at_x, at_y){}",
+        1e6 * c.width, 1e6 * c.height, 1e6 * scan.taken, scan.section,
         c.as_is ? "" : ", blended along two borders with what lies beyond, so that it repeats");
   }
   return out;
@@ -33,12 +51,14 @@ std::vector<std::string> scan_as_texture(const std::string& scan,
 }
 
 std::vector<DesignScan> scans_of(const Design& design) {
-  const TextureFacts known = facts(design.texture);
+  const double taken = facts(design.texture).free_patch.exact.value_or(0);
+  std::vector<NamedScan> named;
+  add_scans(design.texture, "texture", named);
   std::vector<DesignScan> out;
   Mistakes mistakes;
-  for (const ScanSource& source : known.scans) {
+  for (const NamedScan& scan : named) {
     mistakes.of([&] {
-      out.push_back({source.file, changes_of_map(source), known.free_patch.exact.value_or(0)});
+      out.push_back({scan.source.file, changes_of_map(scan.source), taken, scan.section});
     });
   }
   if (const Skin skin = scene_of(design).finger.skin; !skin.map.empty())

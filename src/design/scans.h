@@ -13,7 +13,8 @@ namespace papilla::design {
 struct DesignScan {
   std::string file;
   ScanChanges changes;
-  double taken = 0;  // side of the square of the map that the texture is [m]
+  double taken = 0;                 // side of the square of the map that the texture is [m]
+  std::string section = "texture";  // whose `patch`, `at_x` and `at_y` choose it: or a part's of it
 };
 
 // What was changed of it, and where a part alone is taken.

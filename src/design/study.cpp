@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "config/writer.h"
+#include "design/families.h"
 #include "optim/search.h"
 
 namespace papilla::design {
@@ -44,10 +45,31 @@ std::string variable_text(const Variable& variable, double value, bool plain) {
   return significant(shown, 3) + (variable.unit.empty() ? "" : " " + variable.unit);
 }
 
+std::vector<std::string> scenarios_setting(const Study& study, const std::string& path) {
+  Design design = study.design;
+  const std::vector<NumberField> known = number_fields(design);
+  const std::string own = path_in(known, path);
+  const auto is_it = [&](const Setting& s) {
+    return s.path == path || (!own.empty() && path_in(known, s.path) == own);
+  };
+  std::vector<std::string> out;
+  for (const Scenario& s : study.scenarios) {
+    if (s.weight > 0 && std::any_of(s.set.begin(), s.set.end(), is_it))
+      out.push_back("\"" + s.name + "\"");
+  }
+  return out;
+}
+
 std::vector<std::string> unused_of(const Study& study) {
   std::vector<std::string> out;
   for (const std::string& path : study.fallen_away)
     out.push_back(path + " of the base is left out: this kind of texture has no such number");
+  for (const Variable& v : study.variables) {
+    const std::vector<std::string> setting = scenarios_setting(study, v.path);
+    if (!setting.empty())
+      out.push_back(v.path + " of the design space counts for nothing where a scenario sets it: " +
+                    join_names(setting));
+  }
   constexpr std::size_t kMostTold = 4;
   const std::size_t told = std::min(kMostTold, study.unheard.size());
   if (told == 0) return out;

@@ -104,6 +104,9 @@ struct Study {
   bool is_study() const { return !variables.empty(); }
 };
 
+// The scenarios that count and set this number, under its own key or another kind's.
+std::vector<std::string> scenarios_setting(const Study& study, const std::string& path);
+
 // What of the study's files a search does not use, a line each.
 std::vector<std::string> unused_of(const Study& study);
 

@@ -222,7 +222,7 @@ std::string other_kind(const Document& document) {
       {"press", "a case of `papilla solve contact`"},
       {"source", "a case of `papilla solve drive`"},
       {"roughness", "a case of `papilla solve persson`"},
-      {"macro", "a finger: a design names it, finger = \"FILE\""},
+      {"macro", "a finger: a design names it in its [finger], base = \"FILE\""},
   }};
   for (const char* of_designs : {"texture", "environment"}) {
     if (document.has(of_designs)) return {};

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kLargestAmplitude = 1e5;     // [V] of the key drive.amplitude
 constexpr double kAmplitudeTolerance = 1e-3;  // of the amplitude
+constexpr double kNextToNone = 1e-3;          // [V]
 constexpr int kMaxEvaluations = 40;
 
 // No equilibrium at that voltage, or none that friction is known for.
@@ -94,7 +95,7 @@ class VoltageSearch {
         answer_.limit = ceiling;
         return 0;
       }
-      if (above && high_.amplitude < 1e-3 * answer_.limit) return v;  // at next to no voltage
+      if (above && v < kNextToNone) return v;
       const double next = propose(above, previous, ceiling);
       if (std::abs(next - v) < kAmplitudeTolerance * v && (high_.amplitude > 0 || next < ceiling)) {
         return v;

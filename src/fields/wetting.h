@@ -22,7 +22,7 @@ struct Droplet {
   double force = 0;     // bridge: normal force dE/dh [N], positive = attracts
   double energy = 0;    // [J]
   double film = 0;  // share of film in a wide bridge, 1: all film; the film's force is no part of
-                    // its own
+                    // its own, which is that of what is still a disc
 };
 
 enum class WettingStatus : std::uint8_t { Dry, Discs, Flooded, Film };
@@ -36,6 +36,8 @@ struct Wetting {
   WettingStatus status = WettingStatus::Dry;
   std::vector<std::uint8_t> bridged;  // per pixel: 1 inside a bridge (or the film); empty: dry
   std::vector<FilmPixel> film;        // per pixel; empty: none
+  std::vector<int> film_region;       // per pixel of a film: 1 + its connected region, 0: none
+  std::vector<double> film_pressure;  // of each region: its force over its pixels [Pa]
   double capillary_force = 0;         // total normal force on the patch [N], positive = attracts
   double wetted_fraction = 0;         // bridged area / patch area
   double volume = 0;                  // total [m^3]

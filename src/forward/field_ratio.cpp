@@ -74,7 +74,8 @@ std::optional<double> full_pull(const PatchSetup& setup, const AtRest& patch,
   return full.ok ? std::optional(full.mean_pressure) : std::nullopt;
 }
 
-// Nothing for layers that conduct alike or insulate alike, and of second order in their lag.
+// Nothing for layers that conduct alike or insulate alike, and of second order in their lag. The
+// scene is in its state.
 double error_of_lag(const Scene& scene, double relative_humidity) {
   const SeriesLayers layers = series_layers(scene, relative_humidity);
   const std::complex<double> series = layers.film(scene.surface) + layers.skin;
@@ -128,10 +129,11 @@ FieldRatios field_ratios(const Scene& scene, const Texture& texture, const Fidel
   FieldRatios out(humidities);
   const FieldMethod method = field_method(scene.model);
   if (!scene.drive.driven() || scene.model.preset == Preset::M3) return out;
+  const Scene in_state = in_its_state(scene);
   if (method == FieldMethod::Full) {
     for (std::size_t i = 0; i < humidities; ++i)
       out[i].error =
-          std::hypot(kOfFullField, error_of_lag(scene, scene.environment.relative_humidity[i]));
+          std::hypot(kOfFullField, error_of_lag(in_state, scene.environment.relative_humidity[i]));
     return out;
   }
   if (fidelity.field_skins == 0) return out;
@@ -158,9 +160,9 @@ FieldRatios field_ratios(const Scene& scene, const Texture& texture, const Fidel
       fidelity.threads);
   for (std::size_t i = 0; i < humidities; ++i) {
     const double rh = scene.environment.relative_humidity[i];
-    if (!knows_skin_layer(setup.plan().grid, field_problem(scene, rh))) continue;
+    if (!knows_skin_layer(setup.plan().grid, field_problem(in_state, rh))) continue;
     out[i] = field_ratio(full[i], rule[i], method == FieldMethod::Spread);
-    out[i].error = std::hypot(*out[i].error, error_of_lag(scene, rh));
+    out[i].error = std::hypot(*out[i].error, error_of_lag(in_state, rh));
   }
   return out;
 }

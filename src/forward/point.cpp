@@ -15,16 +15,43 @@ namespace {
 
 using Patches = std::span<const PatchResult>;
 
-Measured sampled_mean(Patches patches, double PatchResult::*member, double factor = 1) {
+std::vector<double> of_skins(Patches patches, double PatchResult::*member) {
   std::vector<double> values;
   values.reserve(patches.size());
   for (const PatchResult& p : patches) values.push_back(p.*member);
-  const Estimate e = mean_estimate(values);
+  return values;
+}
+
+// Inlined, g++ 12 takes its store into a member that is chosen at run time for one out of bounds.
+[[gnu::noinline]] Measured sampled_mean(Patches patches, double PatchResult::*member,
+                                        double factor) {
+  const Estimate e = mean_estimate(of_skins(patches, member));
   return {factor * e.value, {.sampling = std::abs(factor) * e.se}};
 }
 
-// Per-skin numbers, peaks, shares and the first trouble or pull-in.
-void gather(ResponsePoint& point, Patches patches) {
+// A number with a sample per skin, whose mean it is to first order: skins with more water press
+// harder and hold more, and in a sum they do both at once.
+struct OverSkins {
+  double value = 0;
+  std::vector<double> samples{};
+
+  Measured measured() const { return {value, {.sampling = mean_estimate(samples).se}}; }
+};
+
+// factor x number + other
+OverSkins with_other(double factor, const OverSkins& number, const OverSkins& other) {
+  OverSkins out{factor * number.value + other.value, other.samples};
+  for (std::size_t k = 0; k < out.samples.size(); ++k) out.samples[k] += factor * number.samples[k];
+  return out;
+}
+
+// Before and under the drive.
+struct OffAndOn {
+  OverSkins off, on;
+};
+
+// Per-skin numbers, peaks, shares, means and the first trouble or pull-in.
+void gather(ResponsePoint& point, Patches patches, double patches_per_finger) {
   const auto count = static_cast<double>(patches.size());
   for (const PatchResult& p : patches) {
     point.samples.load_off.push_back(p.load + p.capillary_off);
@@ -39,6 +66,10 @@ void gather(ResponsePoint& point, Patches patches) {
     if (p.volume > 0) point.bridge_water_share += p.bridge_volume / p.volume / count;
     point.status.note(p.status);
   }
+  for (const PointQuantity& q : kPointQuantities) {
+    if (q.mean_of)
+      point.*q.value = sampled_mean(patches, q.mean_of, q.whole_finger ? patches_per_finger : 1);
+  }
 }
 
 // The share of the patch of a contact that grows by a factor: in proportion where it is small, to
@@ -52,83 +83,72 @@ double grown(double area, double factor) {
 
 // A contact area that grows with the load on it.
 struct GrownArea {
-  Measured area;
+  OverSkins area;
   double held = 1;  // of what it would be if it could be more than the patch
 };
 
-GrownArea scaled(const Measured& dry, const Estimate& load_ratio, const Fidelity& fidelity,
-                 ResponsePoint& point) {
-  const double factor = fidelity.area_by_load(load_ratio.value);
-  const double relative =
-      load_ratio.value > 0 ? fidelity.load_exponent * load_ratio.se / load_ratio.value : 0;
-  const double open = dry.value * factor;
-  if (open > 1) point.status.note({Trouble::FullContact, open, ""});
-  GrownArea out;
-  if (open > 0) out.held = grown(dry.value, factor) / open;
-  out.area.value = open * out.held;
-  out.area.parts.sampling = out.held * std::hypot(dry.parts.sampling * factor, open * relative);
-  return out;
-}
-
 // Eq. friction.3: F ~ L^beta on the dry contact area of the patches in contact, of which there are
 // as many more as the open gaps press on (Eq. coupling.10).
-void areas_by_load(ResponsePoint& point, const ScaleBridge& bridge, Patches patches,
-                   const Fidelity& fidelity, double area_factor) {
-  const Measured dry = sampled_mean(patches, &PatchResult::area_dry, area_factor);
-  std::vector<double> loads;
-  for (const PatchResult& p : patches) loads.push_back(p.load);
+OffAndOn areas_by_load(ResponsePoint& point, const ScaleBridge& bridge, Patches patches,
+                       const Fidelity& fidelity, double area_factor) {
+  const std::vector<double> dry = of_skins(patches, &PatchResult::area_dry);
+  const std::vector<double> preload = of_skins(patches, &PatchResult::load);
+  const double dry_mean = mean_estimate(dry).value, preload_mean = mean_estimate(preload).value;
   const double gain_by_gaps = bridge.growth_on() / bridge.growth_off();
-  const auto by_law = [&](double growth, const Estimate& ratio) {
-    GrownArea out = scaled(dry, {ratio.value / growth, ratio.se / growth}, fidelity, point);
-    out.area.value *= growth;
-    out.area.parts.sampling *= growth;
+  const auto by_law = [&](double growth, const std::vector<double>& loads) {
+    const double ratio = ratio_estimate(loads, preload).value;
+    const double factor = fidelity.area_by_load(ratio / growth);
+    const double open = area_factor * dry_mean * factor;
+    if (open > 1) point.status.note({Trouble::FullContact, open, ""});
+    GrownArea out;
+    out.area.samples.resize(dry.size());
+    if (open > 0) out.held = grown(area_factor * dry_mean, factor) / open;
+    out.area.value = open * out.held * growth;
+    if (!(open > 0)) return out;
+    // Each skin by its own dry area and its own loads.
+    const double mean = mean_estimate(loads).value;
+    for (std::size_t k = 0; k < dry.size(); ++k)
+      out.area.samples[k] =
+          out.area.value * (dry[k] / dry_mean +
+                            fidelity.load_exponent * (loads[k] / mean - preload[k] / preload_mean));
     return out;
   };
-  const Estimate off = ratio_estimate(point.samples.load_off, loads);
-  const Estimate on = ratio_estimate(point.samples.load_on, loads);
   const Estimate gain = ratio_estimate(point.samples.load_on, point.samples.load_off);
-  const GrownArea without = by_law(bridge.growth_off(), off);
-  const GrownArea with = by_law(bridge.growth_on(), on);
-  point.area_fraction_off = without.area;
-  point.area_fraction_on = with.area;
+  const GrownArea without = by_law(bridge.growth_off(), point.samples.load_off);
+  const GrownArea with = by_law(bridge.growth_on(), point.samples.load_on);
   const double ratio =
       gain_by_gaps * fidelity.area_by_load(gain.value / gain_by_gaps) * with.held / without.held;
   point.modulation.value = ratio - 1;
   point.modulation.parts.sampling =
       fidelity.load_exponent * ratio * gain.se / std::max(gain.value, 1e-12);
+  return {without.area, with.area};
 }
 
 // Eq. friction.1, friction.2: resolved areas, ratio of sums over the skins.
-void areas_resolved(ResponsePoint& point, double area_factor) {
-  const Estimate off = mean_estimate(point.samples.area_off);
-  const Estimate on = mean_estimate(point.samples.area_on);
-  point.area_fraction_off = {area_factor * off.value, {.sampling = area_factor * off.se}};
-  point.area_fraction_on = {area_factor * on.value, {.sampling = area_factor * on.se}};
-  for (const Measured* area : {&point.area_fraction_off, &point.area_fraction_on}) {
-    if (area->value > 1) point.status.note({Trouble::FullContact, area->value, ""});
-  }
-  if (off.value > 0) {
+OffAndOn areas_resolved(ResponsePoint& point, double area_factor) {
+  const auto area = [&](const std::vector<double>& samples) {
+    const OverSkins none{0, std::vector<double>(samples.size())};
+    const OverSkins out = with_other(area_factor, {mean_estimate(samples).value, samples}, none);
+    if (out.value > 1) point.status.note({Trouble::FullContact, out.value, ""});
+    return out;
+  };
+  const OffAndOn out{area(point.samples.area_off), area(point.samples.area_on)};
+  if (out.off.value > 0) {
     const Estimate gain = ratio_estimate(point.samples.area_on, point.samples.area_off);
     point.modulation = {gain.value - 1, {.sampling = gain.se}};
   }
-}
-
-Measured friction(double strength, const Measured& area, const Measured& retention) {
-  Measured f;
-  f.value = strength * area.value + retention.value;
-  f.parts.sampling = std::hypot(strength * area.parts.sampling, retention.parts.sampling);
-  return f;
+  return out;
 }
 
 // Friction off and on from areas and retention, which is part of both: the modulation of the areas
 // counts by the share of the dry friction, and bridges that a closed gap has spread hold more. Eq.
 // friction.1
-void add_friction(ResponsePoint& point, double strength, const Measured& retention_on,
-                  bool driven) {
+void add_friction(ResponsePoint& point, double strength, const OffAndOn& areas,
+                  const OffAndOn& retention, bool driven) {
   point.strength = strength;
-  point.friction_off = friction(strength, point.area_fraction_off, point.retention_force);
-  point.friction_on = friction(strength, point.area_fraction_on, retention_on);
-  point.retention_gain = retention_on.value - point.retention_force.value;
+  point.friction_off = with_other(strength, areas.off, retention.off).measured();
+  point.friction_on = with_other(strength, areas.on, retention.on).measured();
+  point.retention_gain = retention.on.value - retention.off.value;
   if (!driven) {
     point.modulation = {};
     return;
@@ -142,16 +162,14 @@ void add_friction(ResponsePoint& point, double strength, const Measured& retenti
 
 // Eq. friction.4: a coefficient on all that presses, whatever touches; retention is held besides.
 void rub_by_load(ResponsePoint& point, double coefficient, double patches_per_finger,
-                 const Measured& retention_on, bool driven) {
-  const auto rubbed = [&](const std::vector<double>& loads, const Measured& held) {
-    const Estimate load = mean_estimate(loads);
-    const double factor = coefficient * patches_per_finger;
-    return Measured{factor * load.value + held.value,
-                    {.sampling = std::hypot(factor * load.se, held.parts.sampling)}};
+                 const OffAndOn& retention, bool driven) {
+  const auto rubbed = [&](const std::vector<double>& loads, const OverSkins& held) {
+    return with_other(coefficient * patches_per_finger, {mean_estimate(loads).value, loads}, held)
+        .measured();
   };
-  point.friction_off = rubbed(point.samples.load_off, point.retention_force);
-  point.friction_on = rubbed(point.samples.load_on, retention_on);
-  point.retention_gain = retention_on.value - point.retention_force.value;
+  point.friction_off = rubbed(point.samples.load_off, retention.off);
+  point.friction_on = rubbed(point.samples.load_on, retention.on);
+  point.retention_gain = retention.on.value - retention.off.value;
   point.modulation = {};
   if (!driven || point.friction_off.value <= 0) return;
   const Estimate gain = ratio_estimate(point.samples.load_on, point.samples.load_off);
@@ -193,29 +211,32 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
   const double carrying =
       bridge.carrying_share() * macro.gross_area(scene.finger.load, relative_humidity);  // [m^2]
   const double patches_per_finger = carrying / plan.grid.area();
-  gather(point, patches);
+  gather(point, patches, patches_per_finger);
   if (!patches.empty()) {
     point.samples.preload = patches.front().load;
     point.samples.pressed_off = point.samples.preload * bridge.growth_off();
     point.samples.pressed_on = point.samples.preload * bridge.growth_on();
   }
-  for (const PointQuantity& q : kPointQuantities) {
-    if (q.mean_of)
-      point.*q.value = sampled_mean(patches, q.mean_of, q.whole_finger ? patches_per_finger : 1);
-  }
-  Measured retention_on = sampled_mean(patches, &PatchResult::retention_on, patches_per_finger);
-  if (!plan.retention) point.retention_force = retention_on = {};
-  if (setting.fidelity.estimator == Estimator::Load || !plan.traction_solves) {
-    areas_by_load(point, bridge, patches, setting.fidelity, setting.area_factor);
-  } else {
-    areas_resolved(point, setting.area_factor);
-  }
-  for (auto* areas : {&point.samples.area_off, &point.samples.area_on})
-    for (double& area : *areas) area *= setting.area_factor;
-  add_friction(point, shear_strength(scene, relative_humidity) * carrying, retention_on,
+  if (!plan.retention) point.retention_force = {};
+  const auto retained = [&](double PatchResult::*member) {
+    OverSkins out{0, std::vector<double>(patches.size())};
+    if (!plan.retention) return out;
+    const std::vector<double> forces = of_skins(patches, member);
+    return with_other(patches_per_finger, {mean_estimate(forces).value, forces}, out);
+  };
+  const OffAndOn retention{retained(&PatchResult::retention), retained(&PatchResult::retention_on)};
+  const bool by_load = setting.fidelity.estimator == Estimator::Load || !plan.traction_solves;
+  const OffAndOn areas =
+      by_load ? areas_by_load(point, bridge, patches, setting.fidelity, setting.area_factor)
+              : areas_resolved(point, setting.area_factor);
+  point.area_fraction_off = areas.off.measured();
+  point.area_fraction_on = areas.on.measured();
+  for (auto* samples : {&point.samples.area_off, &point.samples.area_on})
+    for (double& area : *samples) area *= setting.area_factor;
+  add_friction(point, shear_strength(scene, relative_humidity) * carrying, areas, retention,
                plan.field);
   if (scene.touch.coefficient > 0)
-    rub_by_load(point, scene.touch.coefficient, patches_per_finger, retention_on, plan.field);
+    rub_by_load(point, scene.touch.coefficient, patches_per_finger, retention, plan.field);
   const LoadExponents exponents =
       load_exponents(setting.fidelity.load_exponent, scene.touch.coefficient);
   add_solver_errors(point, patches, exponents);

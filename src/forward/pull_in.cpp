@@ -40,22 +40,30 @@ class Branch {
     driven_.drive.control = DriveControl::Voltage;
   }
 
-  // The voltage at which the gap that an attraction [Pa] closes attracts so much; at most
-  // kFarthestPullIn.
+  // The voltage at which the gap that an attraction [Pa] closes attracts so much: 0 where its water
+  // alone does, at most kFarthestPullIn.
   double voltage(double attraction) {
     constexpr double kExact = 1e-3;
-    constexpr int kMost = 12;
+    constexpr int kBySquares = 12, kMost = 40;
     patch_.close(attraction);
+    const double water = attracted(0), wanted = attraction - water;
+    if (!(wanted > 0)) return 0;
     double low = 0, high = kFarthestPullIn;
-    for (int k = 0; k < kMost; ++k) {
-      const double found = attracted(last_);
-      if (std::abs(found - attraction) <= kExact * attraction) break;
-      if (found < attraction && last_ >= kFarthestPullIn) break;
-      (found < attraction ? low : high) = last_;
-      // The pull goes with the square of the voltage, or less.
-      double next = found > 0 ? last_ * std::sqrt(attraction / found) : kFarthestPullIn;
+    for (int k = 0;; ++k) {
+      const double found = attracted(last_) - water;
+      if (std::abs(found - wanted) <= kExact * wanted) break;
+      if (found < wanted && last_ >= kFarthestPullIn) break;
+      (found < wanted ? low : high) = last_;
+      // The field's pull goes with the square of the voltage, or less: air that holds it and
+      // droplets that come to bridge leave the rest to halving.
+      const bool halves = k >= kBySquares;
+      if (halves && (high - low <= kExact * high || k == kMost)) {
+        last_ = high;
+        break;
+      }
+      double next = found > 0 ? last_ * std::sqrt(wanted / found) : kFarthestPullIn;
       if (next >= kFarthestPullIn && high == kFarthestPullIn) next = kFarthestPullIn;
-      if (!(next > low && next <= high)) next = 0.5 * (low + high);
+      if (halves || !(next > low && next <= high)) next = 0.5 * (low + high);
       last_ = next;
     }
     return last_;
@@ -82,6 +90,8 @@ Fold fold_of(Branch& branch, double pressure) {
   constexpr double kPast = 0.97;  // of the highest voltage: the branch has turned
   std::vector<double> loads, voltages;
   double highest = 0;
+  // Loads that water alone holds lie before the branch, at no voltage; behind its beginning they
+  // are where it has come back to none.
   for (double load = kFirstLoad; load < 1 + kClosingLoad; load *= kStep) {
     const double v = branch.voltage((load - 1) * pressure);
     if (v >= kFarthestPullIn) return {};

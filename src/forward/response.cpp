@@ -13,12 +13,17 @@ ModelStatus ResponsePoint::said() const {
   return status;
 }
 
-bool ResponsePoint::knows_undriven() const { return !(area_fraction_off.value > 1); }
+// A pull-in under a drive is taken for the drive's, as next to all are: what was before it stands.
+// Without one it is the water's, and the numbers are those of a state on its way to a closed gap.
+bool ResponsePoint::knows_undriven() const {
+  return !(area_fraction_off.value > 1) && !(source_voltage == 0 && status.pull_in());
+}
 
 bool ResponsePoint::knows_driven() const {
   const Trouble trouble = said().trouble;
-  return knows_undriven() && !(area_fraction_on.value > 1) && trouble != Trouble::Breakdown &&
-         trouble != Trouble::FullContact && trouble != Trouble::FieldUnsolved;
+  return knows_undriven() && !(area_fraction_on.value > 1) && !status.pull_in() &&
+         trouble != Trouble::Breakdown && trouble != Trouble::FullContact &&
+         trouble != Trouble::FieldUnsolved;
 }
 
 double BeliefRuns::effective() const {

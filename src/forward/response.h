@@ -50,7 +50,7 @@ inline constexpr double kClosingLoad = 40;
 // How far the drive is from the voltage at which the gap jumps shut: `pull_in_margin`.
 struct PullIn {
   // Voltage at the fold over that of the drive; without a fold that at which the attraction is
-  // kClosingLoad times the nominal load.
+  // kClosingLoad times the nominal load; 0 where water alone closes the gap.
   Measured margin{kFarthestPullIn, {}};
   double folds = 0;  // share of the patches that have a fold
 

@@ -7,6 +7,7 @@
 
 #include "base/check.h"
 #include "base/constants.h"
+#include "forward/open_gaps.h"
 #include "forward/scene_terms.h"
 #include "physics/macro/fingertip.h"
 #include "physics/persson/patches.h"
@@ -100,9 +101,15 @@ ScaleBridge::ScaleBridge(const Scene& scene, const Fidelity& fidelity, const Gri
   const FieldProblem electric = field_problem(scene, relative_humidity);
   const std::complex<double> h0 = electric.dielectric + electric.skin_layer;
   const double scale = 0.5 * kVacuumPermittivity * square(electric.v_rms);
+  const auto pull_at = [&](double pressure) {
+    const GapDistribution gaps = field.gaps(pressure);
+    // What holds the field takes its part gap by gap. Eq. electrostatics.21
+    return field_is_held(electric) ? open_gap_pull(gap_shares(gaps, q_patch), {}, electric)
+                                   : scale * gaps.far_inverse_square(h0, q_patch);
+  };
   bool settled = false;
   for (int i = 0; i < 100 && !settled; ++i) {
-    const double pull = scale * field.gaps(nominal_ + far_pull_).far_inverse_square(h0, q_patch);
+    const double pull = pull_at(nominal_ + far_pull_);
     settled = std::abs(pull - far_pull_) <= 1e-6 * (nominal_ + pull);
     far_pull_ = pull;
     if (far_pull_ > 1e3 * nominal_) break;

@@ -54,6 +54,8 @@ DecisionGain::DecisionGain(const Ensemble& ensemble, const Kernels& kernels, con
   choice_ = chosen(now, limits.wanted);
   regret_now_ = now[choice_].regret;
   for (const Prospect& p : now) p_best_.push_back(p.p_best);
+  for (const std::vector<bool>& kept : limits.kept)
+    limited_ |= std::find(kept.begin(), kept.end(), false) != kept.end();
   const std::vector<double> weights = sofar.weights();
   std::vector<double> logs;
   for (const double w : weights) logs.push_back(std::log(std::max(w, 1e-300)));
@@ -102,11 +104,30 @@ void DecisionGain::take(State& state, const Observation& reading) const {
   for (std::size_t j = 0; j < state.futures.size(); ++j) move_future(state, state.futures[j], j);
 }
 
+// What each design is expected to be worth beyond the best that keeps the limits, where one does:
+// nothing is lost or won by it, as prospects() counts regret. Eq. search.16
+std::vector<double> DecisionGain::beyond_limits(const State& state, const Future& future,
+                                                const std::vector<double>& weights) const {
+  std::vector<double> out(state.worth.size(), 0);
+  if (!limited_) return out;
+  for (std::size_t m = 0; m < weights.size(); ++m) {
+    double best = -kInfinity;
+    for (std::size_t d = 0; d < out.size(); ++d) {
+      if (limits_.kept[d][m]) best = std::max(best, state.worth[d][m] + future.shift[d]);
+    }
+    if (std::isinf(best)) continue;  // all are allowed alike
+    for (std::size_t d = 0; d < out.size(); ++d)
+      out[d] += weights[m] * std::max(0.0, state.worth[d][m] + future.shift[d] - best);
+  }
+  return out;
+}
+
 DecisionGain::Found DecisionGain::found(const State& state, const Future& future) const {
   const std::vector<double> w = normalised(future.log_weights);
   const std::size_t designs = state.worth.size();
   std::vector<double> expected(designs, 0), keeps(designs, 1);
   const std::vector<double>& of_choice = state.worth[choice_];
+  const std::vector<double> beyond = beyond_limits(state, future, w);
   Found out{choice_, 0, 0};
   for (std::size_t d = 0; d < designs; ++d) {
     double mean = 0, squares = 0, kept = 0;
@@ -117,7 +138,7 @@ DecisionGain::Found DecisionGain::found(const State& state, const Future& future
       if (!limits_.kept.empty() && limits_.kept[d][m]) kept += w[m];
     }
     if (!limits_.kept.empty()) keeps[d] = kept;
-    expected[d] = mean + future.shift[d] - future.shift[choice_];
+    expected[d] = mean + future.shift[d] - future.shift[choice_] - (beyond[d] - beyond[choice_]);
     out.variance += p_best_[d] * (std::max(0.0, squares - square(mean)) + state.left[d]);
   }
   const double wanted =

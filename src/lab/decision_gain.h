@@ -2,6 +2,7 @@
 // choice among designs. Eq. lab.6
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "base/rooms.h"
@@ -19,6 +20,7 @@ struct Foreseen {
   std::size_t choice = 0;    // the design that is chosen most often
   double p_choice = 0;       // how often
   std::vector<double> p_hypothesis;
+  std::string design{};  // its name; "": not known any more
 };
 
 class DecisionGain final : public Gain {
@@ -35,6 +37,7 @@ class DecisionGain final : public Gain {
   // The design that is chosen now, and expected regret: now, and on average after what was taken.
   std::size_t choice() const { return choice_; }
   double regret_now() const { return regret_now_; }
+  // More than now where what is told of the limits leaves worse designs to choose among.
   double regret_after() const;
   // Share of the futures in which another design is chosen after what was taken.
   double p_change() const;
@@ -60,7 +63,8 @@ class DecisionGain final : public Gain {
   };
   struct Found {
     std::size_t choice = 0;
-    double better = 0;    // expected worth of the choice over that of the choice now
+    double better = 0;    // expected worth of the choice over that of the choice now, both counted
+                          // for no more than the best that keeps the limits
     double variance = 0;  // of contested differences
   };
 
@@ -68,11 +72,14 @@ class DecisionGain final : public Gain {
   void move_future(const State& state, Future& future, std::size_t index) const;
   Found found(const State& state, const Future& future) const;
   Found average(const State& state) const;
+  std::vector<double> beyond_limits(const State& state, const Future& future,
+                                    const std::vector<double>& weights) const;
 
   const Ensemble& ensemble_;
   const Kernels& kernels_;
   const DecisionLimits& limits_;
   std::vector<double> p_best_;  // of each design now
+  bool limited_ = false;        // some design breaks a limit at some member
   std::size_t choice_ = 0;
   double regret_now_ = 0;
   State state_;

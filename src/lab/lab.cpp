@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "base/digest.h"
 #include "base/error.h"
@@ -36,6 +37,28 @@ std::vector<LabDesign> read_designs(const std::string& folder, const LabFile& fi
   }
   mistakes.tell();
   return out;
+}
+
+// Records of an older program have choices by their place among those of then: as many as there are
+// now are taken for the same.
+void name_choices(const std::vector<LabDesign>& designs, std::vector<JournalEntry>& entries) {
+  std::vector<std::string> names;
+  for (const LabDesign& d : designs) {
+    if (d.choice) names.push_back(d.name);
+  }
+  for (JournalEntry& e : entries) {
+    if (!e.decision || !e.decision->designs.empty()) continue;
+    if (e.decision->p_designs.size() != names.size()) continue;
+    e.decision->designs = names;
+    if (!e.plan) continue;
+    for (PlannedExperiment& p : e.plan->experiments) {
+      for (std::vector<Foreseen>* thirds : {&p.off, &p.on}) {
+        for (Foreseen& o : *thirds) {
+          if (o.choice < names.size()) o.design = names[o.choice];
+        }
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -88,6 +111,7 @@ Lab::Lab(const std::string& folder, int threads, std::function<void(const std::s
   journal_ = std::make_unique<Journal>(folder_, kJournalFile, journal_key(), true);
   for (const JournalRecord& record : journal_->records())
     entries_.push_back(read_entry(record.payload));
+  name_choices(designs_, entries_);
 }
 
 std::vector<PlannedExperiment> Lab::planned() const {
@@ -207,11 +231,13 @@ const std::vector<MemberNumbers>& Lab::worth() {
     for (const LabDesign& d : designs_) {
       if (!d.choice) continue;
       const auto at = std::find(run.designs.begin(), run.designs.end(), d.name);
-      if (at == run.designs.end())
+      if (at == run.designs.end()) {
         unknown.push_back({folder_.path(kLabFile), 0, 0, "choice",
                            fmt::format("\"{}\" is decided among, but {} does not say what it is "
                                        "worth: set it to false",
                                        d.name, file_.worth_file)});
+        continue;
+      }
       rows.push_back(static_cast<std::size_t>(at - run.designs.begin()));
     }
     if (!unknown.empty()) throw InputError(unknown);
@@ -252,7 +278,10 @@ DecisionRecord Lab::decision(const std::string& date) {
     out.best = designs_[s.choices[s.best]].name;
     out.p_best = s.prospects[s.best].p_best;
     out.regret = s.prospects[s.best].regret;
-    for (const Prospect& p : s.prospects) out.p_designs.push_back(p.p_best);
+    for (std::size_t i = 0; i < s.prospects.size(); ++i) {
+      out.p_designs.push_back(s.prospects[i].p_best);
+      out.designs.push_back(designs_[s.choices[i]].name);
+    }
   }
   out.p_hypothesis = s.p_hypothesis;
   out.effective_members = s.effective_members;
@@ -342,6 +371,36 @@ void Lab::take_new(const std::vector<FrictionReading>& rows, const TellOptions& 
         "no longer counted: {} that this file was told as before", counted(count, "reading")));
 }
 
+// Says of which readings some member has no such state: they are kept, and weigh nothing. Throws
+// InputError where that is so of all.
+void Lab::note_unheld(const std::string& path, TellRecord& record) const {
+  std::vector<std::string> notes;
+  std::optional<Problem> first;
+  bool any_held = record.readings.empty();
+  for (const FrictionReading& r : record.readings) {
+    const MeasurableCell& cell = table_->cell(r.experiment);
+    for (const auto& [name, force, held] :
+         {std::tuple("F_off", r.off, cell.off.has_value()), {"F_on", r.on, cell.on.has_value()}}) {
+      if (!(force > 0)) continue;
+      any_held |= held;
+      if (held) continue;
+      const std::string of = designs_[r.experiment.design].name + ", " + text(r.experiment.at);
+      if (!first)
+        first = Problem{path, r.line, 0, "",
+                        "some member of belief has no such state (" + text(r.experiment.at) +
+                            "): it cannot be held against it"};
+      notes.push_back(fmt::format(
+          "{} of {} is kept and weighs nothing: some member of belief has no such state", name,
+          of));
+    }
+  }
+  if (!any_held && first) throw InputError({*first});
+  for (const std::string& n : notes) {
+    if (std::find(record.notes.begin(), record.notes.end(), n) == record.notes.end())
+      record.notes.push_back(n);  // once, of several touches
+  }
+}
+
 Told Lab::tell(const std::string& path, const TellOptions& options,
                const std::function<void(const Told&)>& picture) {
   const std::string bytes = read_bytes(path, kLargestFile);
@@ -384,13 +443,7 @@ Told Lab::tell(const std::string& path, const TellOptions& options,
   std::vector<Experiment> of_file;
   for (const FrictionReading& r : told.record.readings) of_file.push_back(r.experiment);
   table_->lay(of_file);
-  for (const FrictionReading& r : told.record.readings) {
-    const MeasurableCell& cell = table_->cell(r.experiment);
-    if ((r.off > 0 && !cell.off) || (r.on > 0 && !cell.on))
-      throw InputError({Problem{path, r.line, 0, "",
-                                "some member of belief has no such state (" +
-                                    text(r.experiment.at) + "): it cannot be held against it"}});
-  }
+  note_unheld(path, told.record);
   if (picture) picture(told);
   entries_.push_back({std::nullopt, told.record, std::nullopt});
   stand();

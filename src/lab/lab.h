@@ -97,6 +97,7 @@ class Lab {
   void keep(JournalEntry entry);
   void take_new(const std::vector<FrictionReading>& rows, const TellOptions& options,
                 Told& told) const;
+  void note_unheld(const std::string& path, TellRecord& record) const;
 
   Folder folder_;
   SoleWriter sole_;

@@ -24,10 +24,15 @@ std::vector<Candidate> candidates_of(const Standing& s, const ResponseTable& tab
   std::vector<Candidate> out;
   const std::string day = options.day.empty() ? options.date : options.day;
   for (const Experiment& e : experiments) {
+    // Under voltage for what is read under voltage: a member without it has nothing to say.
+    if (e.at.driven() && !table.cell(e).on) continue;
     Candidate c{e, observations_of(table, e, s.instrument, 0, 0, options.finger, day)};
     if (!c.readings.empty()) out.push_back(std::move(c));
   }
-  if (out.empty()) throw InputError("no experiment can be held against every member of the belief");
+  if (out.empty())
+    throw InputError(
+        "no experiment can be held against every member of the belief: some member has no "
+        "friction at the conditions of lab.toml, as where a film does not stand the voltage");
   return out;
 }
 
@@ -35,7 +40,7 @@ Aim aim_of(const Standing& s, const NextOptions& options) {
   if (options.aim == Aim::Decision && !s.decided())
     throw InputError(
         "--for decision: nothing is decided in this lab (worth = \"\" in lab.toml, or "
-        "one design)");
+        "one design, or no member of the belief at which a design has a worth)");
   if (options.aim == Aim::Hypotheses && s.ensemble.hypotheses.size() < 2)
     throw InputError("--for hypotheses: the belief has one hypothesis");
   if (options.aim) return *options.aim;
@@ -53,9 +58,9 @@ std::vector<double> expected(const Standing& s, const std::optional<std::size_t>
 }
 
 // What each reading of the batch would change, at the first touch of each experiment.
-void add_outcomes(const std::vector<Candidate>& candidates, const std::vector<Chosen>& batch,
-                  const DecisionGain& gain, const ResponseTable& table,
-                  std::vector<PlannedExperiment>& plan) {
+void add_outcomes(const Standing& s, const LabFile& file, const std::vector<Candidate>& candidates,
+                  const std::vector<Chosen>& batch, const DecisionGain& gain,
+                  const ResponseTable& table, std::vector<PlannedExperiment>& plan) {
   const auto outcomes = gain.outcomes();
   std::size_t k = 0;
   for (const Chosen& c : batch) {
@@ -66,7 +71,10 @@ void add_outcomes(const std::vector<Candidate>& candidates, const std::vector<Ch
     for (const Observation& o : candidate.readings) {
       const MeasurableCell& cell = table.cell(candidate.experiment);
       auto& thirds = cell.on && o.row == *cell.on ? planned->on : planned->off;
-      if (thirds.empty()) thirds = outcomes[k];
+      if (thirds.empty()) {
+        thirds = outcomes[k];
+        for (Foreseen& third : thirds) third.design = file.designs[s.choices[third.choice]].name;
+      }
       ++k;
     }
   }
@@ -129,7 +137,9 @@ PlanRecord plan_batch(const Standing& s, const ResponseTable& table,
   std::unique_ptr<Gain> gain;
   DecisionGain* decision = nullptr;
   if (plan.aim == Aim::Decision) {
-    auto own = std::make_unique<DecisionGain>(s.ensemble, s.kernels, *s.evidence, s.limits, kDraws);
+    const Standing::Deciding by = s.deciding();
+    auto own =
+        std::make_unique<DecisionGain>(by.ensemble, by.kernels, by.evidence, s.limits, kDraws);
     decision = own.get();
     gain = std::move(own);
   } else if (plan.aim == Aim::Hypotheses) {
@@ -147,7 +157,7 @@ PlanRecord plan_batch(const Standing& s, const ResponseTable& table,
   plan.regret_now = decision->regret_now();
   plan.regret_after = decision->regret_after();
   plan.p_change = decision->p_change();
-  add_outcomes(candidates, batch.chosen, *decision, table, plan.experiments);
+  add_outcomes(s, file, candidates, batch.chosen, *decision, table, plan.experiments);
   plan.stop_reason =
       reason_to_stop(candidates, batch, file.costs, file.stop * std::abs(s.best_worth), *decision);
   plan.stop = plan.stop_reason.has_value();

@@ -45,7 +45,8 @@ Json json_of(const std::vector<Foreseen>& thirds) {
                    {"high", o.high},
                    {"choice", o.choice},
                    {"p_choice", o.p_choice},
-                   {"p_hypothesis", o.p_hypothesis}});
+                   {"p_hypothesis", o.p_hypothesis},
+                   {"design", o.design}});
   return out;
 }
 
@@ -53,7 +54,8 @@ std::vector<Foreseen> outcomes_of(const Json& j) {
   std::vector<Foreseen> out;
   for (const Json& o : j)
     out.push_back({o.at("low"), o.at("high"), o.at("choice"), o.at("p_choice"),
-                   o.at("p_hypothesis").get<std::vector<double>>()});
+                   o.at("p_hypothesis").get<std::vector<double>>(),
+                   o.value("design", std::string())});
   return out;
 }
 
@@ -162,7 +164,8 @@ Json json_of(const DecisionRecord& d) {
           {"p_hypothesis", d.p_hypothesis},
           {"effective_members", d.effective_members},
           {"explained", d.explained},
-          {"discrepancy", d.discrepancy}};
+          {"discrepancy", d.discrepancy},
+          {"designs", d.designs}};
 }
 
 DecisionRecord decision_of(const Json& j) {
@@ -175,7 +178,8 @@ DecisionRecord decision_of(const Json& j) {
           j.at("p_hypothesis").get<std::vector<double>>(),
           j.at("effective_members"),
           j.at("explained"),
-          j.at("discrepancy")};
+          j.at("discrepancy"),
+          j.value("designs", std::vector<std::string>())};
 }
 
 }  // namespace

@@ -71,11 +71,13 @@ struct DecisionRecord {
   std::size_t readings = 0;
   std::string best;  // design; "": there is no decision
   double p_best = 0, regret = 0;
-  std::vector<double> p_designs;  // p(best) of each choice, in the order of lab.toml
+  std::vector<double> p_designs;  // p(best) of each choice of then, in the order of lab.toml
   std::vector<double> p_hypothesis;
   double effective_members = 0;
   double explained = 1;     // probability that the members explain all readings
   std::string discrepancy;  // the likeliest place where they do not
+  // Of p_designs; empty: a record of an older program, whose choices are not known any more.
+  std::vector<std::string> designs{};
 };
 
 // Told and what came of it, in one record.

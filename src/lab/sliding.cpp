@@ -17,6 +17,8 @@ constexpr double kTouches = 0.2;
 constexpr double kMoves = 0.5, kOnset = 0.9, kSteady = 0.15;
 // Of a stroke: what follows the onset and precedes the end, and is not steady yet or any more.
 constexpr double kAfterOnset = 0.1, kBeforeEnd = 0.05;
+// Of a stroke: a state of the drive that lasts less may be its run-up alone.
+constexpr double kShortState = 2 * kAfterOnset;
 // Samples of a stroke; less do not show a plateau.
 constexpr std::size_t kFewestOfStroke = 40;
 // Samples that a median is taken over, as many as are wanted for three digits.
@@ -35,6 +37,13 @@ double thinned_quantile(const std::vector<double>& values, Span span, double p) 
   const std::size_t step = std::max<std::size_t>(1, span.size() / kMedianSamples);
   for (std::size_t i = span.begin; i < span.end; i += step) some.push_back(values[i]);
   return some.empty() ? 0 : quantile(std::move(some), p);
+}
+
+// Of all values: those that repeat with their sampling, as a carrier does, are not thinned.
+double ranked(std::vector<double> values, double p) {
+  const auto at = values.begin() + static_cast<long>(p * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
 
 // Running mean over 2 half + 1 samples.
@@ -102,7 +111,7 @@ class Finder {
       if (out_.on[i]) while_on.push_back(std::abs(trace_.voltage[i]));
     }
     close_gaps(half);
-    out_.voltage = thinned_quantile(while_on, {0, while_on.size()}, 0.98);
+    out_.voltage = ranked(std::move(while_on), 0.98);
   }
 
   // Off for less than the mean is taken over: a carrier that passes through 0.
@@ -188,17 +197,35 @@ class Finder {
     if (both && !turns) zero_ = (sum[0] / count[0] + sum[1] / count[1]) / 2;
   }
 
+  double along(const Stroke& s, std::size_t i) const {
+    return s.direction * (trace_.tangential[i] - zero_);
+  }
+
+  // The force of the plateau along the slide; where the drive is switched in the stroke, of the
+  // state in which it is lower: the finger slides in it as well, whichever comes first.
+  double plateau(const Stroke& s) const {
+    std::vector<double> of_state[2];
+    if (!out_.on.empty()) {
+      for (std::size_t i = s.all.begin; i < s.all.end; ++i)
+        of_state[out_.on[i]].push_back(along(s, i));
+    }
+    const double fewest = kShortState * static_cast<double>(s.all.size());
+    const auto is_short = [&](const auto& of) { return static_cast<double>(of.size()) < fewest; };
+    if (is_short(of_state[0]) || is_short(of_state[1]))
+      return s.direction * (thinned_quantile(trace_.tangential, second_half(s), 0.5) - zero_);
+    return std::min(ranked(std::move(of_state[0]), 0.5), ranked(std::move(of_state[1]), 0.5));
+  }
+
   // Onset, plateau and slips of a stroke. Eq. lab.11, lab.12
   void judge(Stroke& s) const {
     const Span last = second_half(s);
-    const auto along = [&](std::size_t i) { return s.direction * (trace_.tangential[i] - zero_); };
-    const double level = s.direction * (thinned_quantile(trace_.tangential, last, 0.5) - zero_);
+    const double level = plateau(s);
     s.onset = s.all.begin;
-    while (s.onset < last.begin && along(s.onset) < kOnset * level) ++s.onset;
+    while (s.onset < last.begin && along(s, s.onset) < kOnset * level) ++s.onset;
     const auto after = static_cast<std::size_t>(kAfterOnset * static_cast<double>(s.all.size()));
     const auto before = static_cast<std::size_t>(kBeforeEnd * static_cast<double>(s.all.size()));
     for (std::size_t i = s.onset; i < std::min(s.all.end, s.onset + after); ++i)
-      s.peak = std::max(s.peak, along(i));
+      s.peak = std::max(s.peak, along(s, i));
     s.steady = {std::min(s.all.end, s.onset + after), s.all.end};
     if (s.steady.size() > before) s.steady.end -= before;
     find_slips(s, level);

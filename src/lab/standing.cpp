@@ -27,27 +27,51 @@ void set_members(const Belief& belief, Ensemble& e) {
   }
 }
 
-// Where a design is worth nothing at a member it is worth what the least is, and keeps no limit.
+// The members at which some design has a worth; all where nothing is decided.
+std::vector<std::size_t> members_that_answer(const std::vector<MemberNumbers>& designs,
+                                             std::size_t members) {
+  std::vector<std::size_t> out;
+  for (std::size_t m = 0; m < members; ++m) {
+    const bool any = std::any_of(designs.begin(), designs.end(),
+                                 [&](const MemberNumbers& d) { return !std::isnan(d.at[m]); });
+    if (any || designs.empty()) out.push_back(m);
+  }
+  return out;
+}
+
+// Some members alone, without what designs are worth.
+Ensemble of_members(const Ensemble& all, const std::vector<std::size_t>& members) {
+  Ensemble out;
+  double sum = 0;
+  for (const std::size_t m : members) sum += all.weights[m];
+  for (const std::size_t m : members) {
+    out.weights.push_back(all.weights[m] / sum);
+    out.hypothesis.push_back(all.hypothesis[m]);
+  }
+  out.hypotheses = all.hypotheses;
+  for (const std::vector<double>& row : all.responses) {
+    std::vector<double>& some = out.responses.emplace_back();
+    for (const std::size_t m : members) some.push_back(row[m]);
+  }
+  out.response_sampling = all.response_sampling;
+  return out;
+}
+
+// Of the members of `e`, which these are. Where a design is worth nothing at one it is worth what
+// the least is, and keeps no limit.
 void set_worth(const std::vector<MemberNumbers>& designs,
-               const std::vector<std::vector<bool>>& kept, double wanted, Standing& out) {
-  std::vector<std::vector<double>> worth;
-  for (const MemberNumbers& d : designs) {
-    worth.push_back(d.at);
-    out.ensemble.worth_sampling.push_back(d.sampling);
-  }
-  out.ensemble.worth = worth;
-  out.limits.wanted = wanted;
-  out.limits.kept = kept;
-  if (kept.empty()) {
-    for (const std::vector<double>& row : worth) out.limits.kept.emplace_back(row.size(), true);
-  }
-  for (std::size_t m = 0; !worth.empty() && m < worth.front().size(); ++m) {
-    double least = std::nan("");
-    for (const std::vector<double>& row : worth) least = std::fmin(least, row[m]);
-    for (std::size_t d = 0; d < worth.size(); ++d) {
-      if (!std::isnan(worth[d][m])) continue;
-      out.ensemble.worth[d][m] = std::isnan(least) ? 0 : least;
-      out.limits.kept[d][m] = false;
+               const std::vector<std::vector<bool>>& kept, const std::vector<std::size_t>& members,
+               Ensemble& e, DecisionLimits& limits) {
+  for (std::size_t d = 0; d < designs.size(); ++d) {
+    e.worth_sampling.push_back(designs[d].sampling);
+    std::vector<double>& worth = e.worth.emplace_back();
+    std::vector<bool>& keeps = limits.kept.emplace_back();
+    for (const std::size_t m : members) {
+      double least = std::nan("");
+      for (const MemberNumbers& other : designs) least = std::fmin(least, other.at[m]);
+      const bool has = !std::isnan(designs[d].at[m]);
+      worth.push_back(has ? designs[d].at[m] : least);
+      keeps.push_back(has && (kept.empty() || kept[d][m]));
     }
   }
 }
@@ -137,7 +161,8 @@ class Places {
 };
 
 void decide(Standing& s) {
-  const WorthAfter after = worth_after(s.ensemble, s.kernels, *s.evidence);
+  const Standing::Deciding by = s.deciding();
+  const WorthAfter after = worth_after(by.ensemble, by.kernels, by.evidence);
   const MemberWorth worth = decision_worth(after, s.limits);
   s.prospects = prospects(worth, {});
   s.best = chosen(s.prospects, s.limits.wanted);
@@ -184,7 +209,10 @@ std::unique_ptr<Standing> standing_of(const Belief& belief, const LabFile& file,
   set_members(belief, s.ensemble);
   s.ensemble.responses = table.responses();
   s.ensemble.response_sampling = table.sampling();
-  set_worth(worth, kept, file.limits, s);
+  s.limits.wanted = file.limits;
+  const std::vector<std::size_t> answer = members_that_answer(worth, s.ensemble.members());
+  const bool all_answer = answer.size() == s.ensemble.members();
+  if (all_answer) set_worth(worth, kept, answer, s.ensemble, s.limits);
   for (std::size_t d = 0; d < designs.size(); ++d) {
     if (designs[d].choice) s.choices.push_back(d);
   }
@@ -192,6 +220,14 @@ std::unique_ptr<Standing> standing_of(const Belief& belief, const LabFile& file,
   s.gauge = gauge_of(readings);
   s.instrument = after_gauge(file.instrument, s.gauge);
   s.evidence = std::make_unique<Evidence>(s.ensemble, s.kernels, s.instrument);
+  if (!all_answer && !answer.empty()) {
+    s.answering = std::make_unique<Standing::Answering>();
+    Standing::Answering& some = *s.answering;
+    some.ensemble = of_members(s.ensemble, answer);
+    set_worth(worth, kept, answer, some.ensemble, s.limits);
+    some.kernels = kernels_of(some.ensemble);
+    some.evidence = std::make_unique<Evidence>(some.ensemble, some.kernels, s.instrument);
+  }
   Places places(designs);
   for (const FrictionReading& r : readings) {
     const double off = r.off > 0 ? r.off_sd / r.off : -1, on = r.on > 0 ? r.on_sd / r.on : -1;
@@ -200,15 +236,21 @@ std::unique_ptr<Standing> standing_of(const Belief& belief, const LabFile& file,
          observations_of(table, r.experiment, s.instrument, off, on, r.finger, r.day)) {
       const bool is_on = cell.on && o.row == *cell.on;
       s.evidence->add(o, std::log(is_on ? r.on : r.off));
+      if (s.answering) s.answering->evidence->add(o, std::log(is_on ? r.on : r.off));
       places.take(r, is_on);
     }
   }
   s.weights = s.evidence->weights();
+  if (!all_answer) {
+    s.unanswered = 1;
+    for (const std::size_t m : answer) s.unanswered -= s.weights[m];
+    s.unanswered = std::max(0.0, s.unanswered);
+  }
   s.p_hypothesis = weights_by_hypothesis(s.ensemble, s.weights);
   s.effective_members = effective_number(s.weights);
   s.discrepancies =
       discrepancies(s.ensemble, *s.evidence, places.find(), std::log1p(file.discrepancy));
-  if (s.ensemble.worth.size() > 1) decide(s);
+  if (s.deciding().ensemble.worth.size() > 1) decide(s);
   return out;
 }
 

@@ -20,19 +20,28 @@ inline constexpr double kFewMembers = 10;
 
 // Numbers behind a state of a lab; they refer to one another, so they stay where they are.
 struct Standing {
-  Ensemble ensemble;
+  Ensemble ensemble;  // without worth where some member has no answer
   Kernels kernels;
   Gauge gauge;
-  Instrument instrument;  // after its own readings
-  DecisionLimits limits;
+  Instrument instrument;             // after its own readings
+  DecisionLimits limits;             // of the members that decide
   std::vector<std::size_t> choices;  // designs that are decided among
   std::unique_ptr<Evidence> evidence;
+  // The members at which some choice has a worth, where there are others: they alone decide.
+  struct Answering {
+    Ensemble ensemble;
+    Kernels kernels;
+    std::unique_ptr<Evidence> evidence;
+  };
+  std::unique_ptr<Answering> answering;
+  double unanswered = 0;            // share of belief, after the readings, of the others
   std::vector<Prospect> prospects;  // of the choices; empty: nothing is decided
   std::size_t best = 0;             // of the choices
   double best_worth = 0;            // on average over belief
   // 95 % interval of the worth of each choice, and of how much better the best is than it.
   struct Interval {
     double low = 0, middle = 0, high = 0;
+    Interval times(double sign) const { return sign < 0 ? Interval{-high, -middle, -low} : *this; }
   };
   std::vector<Interval> worth, behind;
   std::vector<double> weights, p_hypothesis;
@@ -43,6 +52,15 @@ struct Standing {
   Standing(const Standing&) = delete;
   Standing& operator=(const Standing&) = delete;
   bool decided() const { return !prospects.empty(); }
+  struct Deciding {
+    const Ensemble& ensemble;
+    const Kernels& kernels;
+    const Evidence& evidence;
+  };
+  Deciding deciding() const {
+    if (answering) return {answering->ensemble, answering->kernels, *answering->evidence};
+    return {ensemble, kernels, *evidence};
+  }
 };
 
 // Of which row, by whom and when.

@@ -70,6 +70,14 @@ class Reader {
   }
 
   bool is_on(std::size_t i) const { return !sliding_.on.empty() && sliding_.on[i]; }
+  bool ever_off() const {
+    for (const Stroke& s : sliding_.strokes) {
+      for (std::size_t i = s.all.begin; i < s.all.end; ++i) {
+        if (!is_on(i)) return true;
+      }
+    }
+    return false;
+  }
 
   // The shift of the drive at which friction follows it best: the largest difference of the mean
   // force on and off.
@@ -264,6 +272,7 @@ class Reader {
     }
     // The drift is common to both states: of their mean.
     out_.drift = x(1) / (two ? x(0) + x(2) / 2 : first);
+    out_.zero = parted ? x(a.cols() - 2) : zero;
     if (parted) out_.zero_drift = x(a.cols() - 1);
     if (!(first > 0)) refuse("the tangential force has no direction: its mean over strokes is 0");
   }
@@ -292,7 +301,10 @@ class Reader {
                       "to and fro",
                       significant(1e3 * out_.zero_drift, 2)));
     if (out_.off_sd == 0 && out_.on_sd > 0)
-      out_.notes.push_back("never without the drive: there is no modulation");
+      out_.notes.push_back(
+          ever_off() ? "no steady sliding without the drive, which is off for too short a part of "
+                       "the strokes: there is no modulation"
+                     : "never without the drive: there is no modulation");
   }
 
   const Trace& trace_;

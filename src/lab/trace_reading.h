@@ -19,6 +19,7 @@ struct TraceReading {
   std::optional<double> relative_humidity;  // mean; none: not recorded
   double lag = 0;                           // of the friction behind the drive [s]
   double drift = 0;                         // of the friction over the record, a share
+  double zero = 0;                          // of the sensor, in the middle of the record [N]
   double zero_drift = 0;                    // of the sensor's zero over the record [N]
   double peak = 0;                          // mean static friction of the strokes [N]
   int strokes = 0, blocks = 0;

@@ -37,8 +37,8 @@ Sample evaluate_sample(const Scene& scene, const Texture& texture, const Fidelit
 Design read_case(const SampleCase& c) { return read_design(find_design(c.design)); }
 
 Scene scene_of(const FingerModel& model, const SampleCase& c, const Design& d) {
-  Scene s{d.surface, model.finger(), d.environment, d.drive, model.finger().calibrated_for};
-  s.finger.load = d.finger.load;
+  Scene s{d.surface, model.finger().touching_as(d.finger), d.environment, d.drive,
+          model.finger().calibrated_for};
   s.finger.state = c.state;
   s.model.preset = model.preset();
   if (c.angle > 0) s.surface.contact_angle = c.angle * kPi / 180;

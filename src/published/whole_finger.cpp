@@ -28,9 +28,7 @@ const Response& response(FingerModel& model, const std::vector<std::string>& key
   for (const std::string& k : keys) key += " " + k;
   return model.once<Response>(key, [&] {
     Design d = read_design(find_design("m3_samples/flat.toml"), keys);
-    const double load = d.finger.load;
-    d.finger = model.finger();
-    d.finger.load = load;
+    d.finger = model.finger().touching_as(d.finger);
     d.model = model.finger().calibrated_for;
     d.model.preset = model.preset();
     return evaluate(scene_of(d), d.texture, model.fidelity());

@@ -242,22 +242,27 @@ SvgSeries front_series(const Side& side, const std::vector<Common>& common,
                        std::size_t Common::*place, const char* colour) {
   SvgSeries out{.name = side.name, .colour = colour, .x = {}, .y = {}, .ex = {}, .ey = {}};
   out.radius = 4.5;
+  const auto shown = [&](const Json& finalist, const char* what, const Common& of) {
+    return shown_unit(of.objective.expression).scale * number(finalist, what, of.*place);
+  };
   for (const Json& f : side.finalists()) {
     if (!on_front(f)) continue;
-    out.x.push_back(number(f, "values", common[1].*place));
-    out.ex.push_back(number(f, "errors", common[1].*place));
-    out.y.push_back(number(f, "values", common[0].*place));
-    out.ey.push_back(number(f, "errors", common[0].*place));
+    out.x.push_back(shown(f, "values", common[1]));
+    out.ex.push_back(shown(f, "errors", common[1]));
+    out.y.push_back(shown(f, "values", common[0]));
+    out.ey.push_back(shown(f, "errors", common[0]));
   }
   return out;
 }
 
 std::string fronts_svg(const Side& first, const Side& second, const std::vector<Common>& common) {
-  const std::string &x = common[1].objective.name, &y = common[0].objective.name;
+  const auto axis = [](const StudyObjective& o) {
+    return name_with_unit(o.name, shown_unit(o.expression).unit);
+  };
   return svg_picture(
       {{.title = "both fronts, confirmed",
-        .x = x,
-        .y = y,
+        .x = axis(common[1].objective),
+        .y = axis(common[0].objective),
         .series = {front_series(first, common, &Common::first, kSideColours[0]),
                    front_series(second, common, &Common::second, kSideColours[1])}}});
 }

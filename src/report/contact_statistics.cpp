@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/units.h"
+#include "report/json.h"
 
 namespace papilla::report {
 namespace {
@@ -13,7 +15,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json number_json(const StatisticsNumber& n) {
-  return {{"value", n.value}, {"error", n.error()}, {"seeds", n.seeds}, {"grid", n.grid}};
+  return {{"value", n.value},
+          {"error", json_number(n.error())},
+          {"seeds", json_number(n.seeds)},
+          {"grid", json_number(n.grid)}};
 }
 
 Json list_json(const std::vector<StatisticsNumber>& numbers) {
@@ -23,7 +28,20 @@ Json list_json(const std::vector<StatisticsNumber>& numbers) {
 }
 
 std::string cell(const StatisticsNumber& n, double scale) {
-  return fmt::format("{:>11.5g} ± {:<8.2g}", scale * n.value, scale * n.error());
+  const std::optional<double> error = n.error();
+  return fmt::format("{:>11.5g} ± {:<8}", scale * n.value,
+                     error ? fmt::format("{:.2g}", scale * *error) : "unknown");
+}
+
+// What stands behind ± in a table.
+std::string meaning_of(const StatisticsNumber& n) {
+  if (n.seeds && n.grid) return "one standard error over the surfaces and what the grid changes";
+  if (n.seeds)
+    return "one standard error over the surfaces; what the grid changes was not measured "
+           "(sampling.controls)";
+  if (n.grid) return "what the grid changes; how surfaces differ was not measured (sampling.seeds)";
+  return "neither how surfaces differ nor what the grid changes was measured (sampling.seeds, "
+         "sampling.controls)";
 }
 
 std::string distribution_csv(const StatisticsResult& result, const char* name,
@@ -32,9 +50,9 @@ std::string distribution_csv(const StatisticsResult& result, const char* name,
   for (const StatisticsPoint& p : result.points) {
     const Distribution& d = p.*member;
     for (std::size_t b = 0; b < d.density.size(); ++b)
-      out += fmt::format("{:.10g},{:.10g},{:.8g},{:.4g}\n", p.pressure,
+      out += fmt::format("{:.10g},{:.10g},{:.8g},{}\n", p.pressure,
                          d.width * (static_cast<double>(b) + 0.5), d.density[b].value,
-                         d.density[b].se);
+                         p.area.seeds ? fmt::format("{:.4g}", d.density[b].se) : "");
   }
   return out;
 }
@@ -46,11 +64,10 @@ std::string statistics_text(const StatisticsCase& c, const StatisticsResult& res
   const SamplingSettings& s = c.sampling;
   std::string out = fmt::format(
       "{}{} surfaces of {:.5g} um on {} x {} pixels, {} of them also on half of these; {:.3g} s\n"
-      "rms {:.5g} um, slope {:.4g}; E* {}; ±: one standard error over the surfaces and what the "
-      "grid changes\n\n{:>12} {:>22} {:>12} {:>22}",
+      "rms {:.5g} um, slope {:.4g}; E* {}; ±: {}\n\n{:>12} {:>22} {:>12} {:>22}",
       c.title.empty() ? "" : c.title + "\n", s.seeds, 1e6 * c.side(), s.grid, s.grid, s.controls,
       seconds, 1e6 * result.rms.value, result.slope.value, format_quantity(c.press.modulus, "MPa"),
-      "p/E*", "contact area %", "pixels %", "mean gap nm");
+      meaning_of(result.rms), "p/E*", "contact area %", "pixels %", "mean gap nm");
   for (const double h0 : c.thickness)
     out += fmt::format(" {:>22}", fmt::format("<(g+{:.4g} nm)^-2>^-1/2 nm", 1e9 * h0));
   out += '\n';
@@ -59,7 +76,11 @@ std::string statistics_text(const StatisticsCase& c, const StatisticsResult& res
                        100 * p.pixels.value, cell(p.mean_gap, 1e9));
     for (const StatisticsNumber& n : p.inverse_square) {
       const double gap = 1 / std::sqrt(n.value), part = 0.5 * gap / n.value;
-      out += " " + cell({gap, part * n.seeds, part * n.grid}, 1e9);
+      const auto of_gap = [part](std::optional<double> error) {
+        if (error) *error *= part;
+        return error;
+      };
+      out += " " + cell({gap, of_gap(n.seeds), of_gap(n.grid)}, 1e9);
     }
     out += '\n';
   }

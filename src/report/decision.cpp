@@ -224,6 +224,22 @@ std::string limits_sentence(const ResultFiles& f) {
       has, name, wanted_text(f), made);
 }
 
+// Of the members that tell no design from another, as none of them has a number there: " At 16 of
+// these members (51 % of belief) ...".
+std::string unanswered_sentence(const ResultFiles& f) {
+  const MemberWorth& worth = decision_of(f).worth;
+  std::size_t unanswered = 0;
+  for (std::size_t m = 0; m < worth.weights.size(); ++m) unanswered += worth.known(m) ? 0 : 1;
+  if (unanswered == 0) return {};
+  return fmt::format(
+      " At {} of these members ({} of belief) no design of the front has an answer: probabilities "
+      "of being the best and regrets are over the others, and a limit that needs an answer is not "
+      "kept there.",
+      stated(count_number("members of belief without an answer", unanswered, kOfDecision),
+             fmt::format("{}", unanswered)),
+      percent_stated("share of belief without an answer", 1 - search::known_share(worth)));
+}
+
 // The design whose measurement beside that of the chosen one settles most: what is better where
 // belief may be true (its share times what is lost there), else the next most probable best.
 std::size_t rival_of(const Decision& d) {
@@ -231,7 +247,7 @@ std::size_t rival_of(const Decision& d) {
   if (d.parameter) all.insert(all.end(), {d.parameter->low, d.parameter->high});
   const Reversal* most = nullptr;
   for (const Reversal& r : all) {
-    if (overturns(d, r) && (!most || r.weight * r.loss > most->weight * most->loss)) most = &r;
+    if (overturns(d, r) && (!most || r.known * r.loss > most->known * most->loss)) most = &r;
   }
   if (most) return most->best;
   std::size_t out = d.best == 0 ? 1 : 0;
@@ -358,9 +374,10 @@ std::vector<std::string> decision_grounds(const ResultFiles& f) {
              fmt::format("{}", d.designs.size())),
       name_of(f, shown), worth_name(f), p_best_text(f, shown), members_text(f),
       regret_text(f, shown), share_text(f));
+  const std::string unanswered = unanswered_sentence(f);
   if (shown != d.best)
-    return {sure + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f))};
-  std::vector<std::string> out{sure + "." + settled_sentence(f) + others_sentence(f) +
+    return {sure + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f)) + unanswered};
+  std::vector<std::string> out{sure + "." + unanswered + settled_sentence(f) + others_sentence(f) +
                                limits_sentence(f)};
   if (d.designs.size() > 1) out.push_back("What would overturn it: " + overturned_text(f) + ".");
   if (std::string measure = measure_sentence(f); !measure.empty()) out.push_back(measure);
@@ -376,11 +393,11 @@ std::string decision_text(const ResultFiles& f) {
       "Each design of the front at {} members of belief about finger and model (as good as {} "
       "equal ones), judged in {}{}. Regret: what is lost on average against the best design at "
       "each "
-      "member. `best/` has {}.\n\n",
+      "member. `best/` has {}.{}\n\n",
       members_text(f),
       stated(bare_number("effective members of belief", d.effective_members, "", kOfBelief, {}),
              fmt::format("{:.3g}", d.effective_members)),
-      worth_name(f), ranges_text(f), chosen_how(f));
+      worth_name(f), ranges_text(f), chosen_how(f), unanswered_sentence(f));
   std::vector<std::string> head{"design", "p(best)", "expected regret"};
   for (const StudyObjective& o : f.problem.objectives()) head.push_back("p(best) in " + o.name);
   const bool limited = !f.study.constraints.empty();
@@ -403,8 +420,10 @@ std::string decision_text(const ResultFiles& f) {
     out += markdown_row(row);
   }
   for (const Reversal& r : d.hypotheses)
-    out += fmt::format("\n- Under hypothesis \"{}\" ({} of belief) {} has {}.", r.name,
-                       hypothesis_share(r), name_of(f, r.best), chosen_how(f));
+    out +=
+        fmt::format("\n- Under hypothesis \"{}\" ({} of belief) {}.", r.name, hypothesis_share(r),
+                    r.known > 0 ? name_of(f, r.best) + " has " + chosen_how(f)
+                                : std::string("no design of the front has an answer"));
   return out + fmt::format("\n\nWhat would overturn it: {}.\n", overturned_text(f));
 }
 
@@ -465,6 +484,8 @@ Json decision_json(const ResultFiles& f) {
            {"hypotheses", std::move(hypotheses)},
            {"parameter", nullptr},
            {"overturned", overturned(f)}};
+  if (const double known = search::known_share(d.worth); known < 1)
+    out["belief_without_answer"] = json_number(1 - known);  // p_best and regret are over the rest
   if (d.parameter)
     out["parameter"] = {{"path", d.parameter->path},
                         {"edge", json_number(d.parameter->edge)},

@@ -235,7 +235,7 @@ std::string drive_text(const DriveCase& c, const DriveResult& r) {
                        1e-6 * r.spots,
                        c.gap.contact_spots ? "beside the gap" : "not counted (gap.contact_spots)");
   }
-  if (c.drive.waveform == Waveform::Am) {
+  if (c.modulated()) {
     out += fmt::format("distortion   {:.3g} % below half the carrier's frequency\n",
                        100 * r.distortion);
   }
@@ -295,7 +295,10 @@ std::string drive_json(const DriveCase& c, const DriveResult& r, const std::vect
 }
 
 std::string swipe_text(const Swipe& swipe) {
-  std::string out = "\nswipe\n         s  state           current mA\n";
+  std::string out = "\nswipe\n";
+  if (swipe.without_tones)
+    out += "the current is the carrier's amplitude, in the place of what the tones make of it\n";
+  out += "         s  state           current mA\n";
   for (const SwipeStep& step : swipe.steps)
     out += fmt::format("{:>10.3f}  {:<14} {:>11.4g}\n", step.time, text_of(step.state),
                        1e3 * step.current);

@@ -63,13 +63,23 @@ std::string found_voltages(const ResultFiles& f) {
 
 }  // namespace
 
-bool judged_at_amplitude(const ResultFiles& f) {
-  return f.problem.driven() && f.problem.goals().own_amplitude;
+bool judged_at_amplitude(const StudyProblem& problem) {
+  return problem.driven() && problem.goals().own_amplitude;
 }
 
-std::string drive_text(const ResultFiles& f) {
-  const Drive drive = built_design(f).drive;
-  if (!drive.driven()) return {};
+namespace {
+
+// What is built under each finger and scenario of the study.
+std::vector<Design> judged_designs(const ResultFiles& f) {
+  const Design built = built_design(f);
+  std::vector<Design> out;
+  for (std::size_t t = 0; t < f.problem.nominal_tasks(); ++t)
+    out.push_back(search::task_design(f.study, built, f.problem.tasks()[t]));
+  return out;
+}
+
+std::string one_drive(const ResultFiles& f, const Drive& drive) {
+  if (!drive.driven()) return "no voltage";
   const auto said = [](const char* what, double value, const char* unit) {
     return stated(bare_number(what, value / find_unit(unit)->to_si, unit, kAsked, {}),
                   in_unit(value, unit, 4));
@@ -87,16 +97,15 @@ std::string drive_text(const ResultFiles& f) {
   return fmt::format("{} at {}", source, said("frequency of the drive", drive.frequency, "kHz"));
 }
 
-namespace {
-
 // Which fingers and weathers the numbers are for.
 std::string conditions_text(const ResultFiles& f) {
-  const Design built = built_design(f);
   std::vector<std::string> states;
+  std::vector<double> humidities;
   double least = kInfinity, most = 0;
-  for (std::size_t t = 0; t < f.problem.nominal_tasks(); ++t) {
-    const Finger finger =
-        scene_of(search::task_design(f.study, built, f.problem.tasks()[t])).finger;
+  for (const Design& design : judged_designs(f)) {
+    const std::vector<double>& air = design.environment.relative_humidity;
+    humidities.insert(humidities.end(), air.begin(), air.end());
+    const Finger finger = scene_of(design).finger;
     const std::string state = f.study.design.counterface.in_place()
                                   ? "the pin \"" + finger.name + "\" in place of a finger"
                                   : state_text(finger.state);
@@ -112,8 +121,7 @@ std::string conditions_text(const ResultFiles& f) {
                                : said("the least", least) + " to " + said("the largest", most);
   const std::string drive = drive_text(f);
   return fmt::format("Judged for {} at {} relative humidity under {}{}.",
-                     join_names(states, " and "),
-                     humidity_text(f.study.design.environment.relative_humidity), load,
+                     join_names(states, " and "), humidity_text(humidities), load,
                      drive.empty() ? "" : ", driven with " + drive);
 }
 
@@ -154,7 +162,7 @@ std::string skin_text(const ResultFiles& f) {
                                  checked_value(o, other.values[*place][k], other.name),
                                  checked_value(o, own.values[*place][k], own.name)));
   }
-  if (judged_at_amplitude(f) && *place < other.worst.size())
+  if (judged_at_amplitude(f.problem) && *place < other.worst.size())
     values.push_back(fmt::format(
         "a worst modulation of {}{} in place of {}", checked_worst(other, *place),
         other.worst[*place] < kNoticed ? ", which nobody feels," : "", checked_worst(own, *place)));
@@ -198,7 +206,7 @@ std::string model_text(const ResultFiles& f) {
 // A modulation that nobody feels somewhere.
 std::string felt_text(const ResultFiles& f) {
   const double worst = recommended_of(f).confirmed.worst;
-  if (!judged_at_amplitude(f) || worst >= kNoticed) return {};
+  if (!judged_at_amplitude(f.problem) || worst >= kNoticed) return {};
   return fmt::format(
       "At its worst, over fingers and humidity, the modulation is {}: below {}, the least "
       "relative difference of friction that people notice (Fehlberg 2022), it is not felt there.",
@@ -307,11 +315,13 @@ std::string other_rule_text(const ResultFiles& f) {
     values.push_back(fmt::format("{} {} in place of {}", objectives[k].name, said(name, there),
                                  said("what is recommended", here)));
   }
+  if (judged_at_amplitude(f.problem))
+    values.push_back(fmt::format("a worst modulation of {} in place of {}",
+                                 worst_text(name, there.worst),
+                                 worst_text("what is recommended", here.worst)));
   return fmt::format(
-      "By the rule \"knee\", which weighs all objectives alike, {} would be built: {}, a worst "
-      "modulation of {} in place of {}.",
-      name, join_names(values), worst_text(name, there.worst),
-      worst_text("what is recommended", here.worst));
+      "By the rule \"knee\", which weighs all objectives alike, {} would be built: {}.", name,
+      join_names(values));
 }
 
 // Dimensions that a limit leaves nothing or little: what the fab has to know first.
@@ -344,6 +354,17 @@ std::string room_text(const ResultFiles& f) {
 
 }  // namespace
 
+std::string drive_text(const ResultFiles& f) {
+  std::vector<std::string> drives;
+  bool driven = false;
+  for (const Design& design : judged_designs(f)) {
+    driven = driven || design.drive.driven();
+    const std::string drive = one_drive(f, design.drive);
+    if (std::find(drives.begin(), drives.end(), drive) == drives.end()) drives.push_back(drive);
+  }
+  return driven ? join_names(drives, " and ") : std::string();
+}
+
 std::string worst_text(const std::string& of, double worst) {
   return stated(bare_number("worst modulation of " + of, worst, "", kLowest,
                             {Stage::Confirm, Stage::Rounding}),
@@ -353,7 +374,8 @@ std::string worst_text(const std::string& of, double worst) {
 std::string unfelt_skin_text(const ResultFiles& f) {
   const Stability& s = f.result.stability;
   const auto place = checked_place(f);
-  if (!judged_at_amplitude(f) || !place || !s.other_skin || *s.other_skin >= s.variants.size())
+  if (!judged_at_amplitude(f.problem) || !place || !s.other_skin ||
+      *s.other_skin >= s.variants.size())
     return {};
   const StabilityVariant& other = s.variants[*s.other_skin];
   if (*place >= other.worst.size() || !(other.worst[*place] < kNoticed)) return {};

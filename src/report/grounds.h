@@ -17,7 +17,7 @@ std::vector<std::string> grounds(const ResultFiles& files);
 std::string unfelt_skin_text(const ResultFiles& files);
 // Whether what the study asks for is of its own amplitude: else it is of voltages that are found,
 // and a modulation at the amplitude says nothing of what is built.
-bool judged_at_amplitude(const ResultFiles& files);
+bool judged_at_amplitude(const StudyProblem& problem);
 // "200 V (peak) at 5 kHz", of what is built; where the voltage is found, what it is; "" of a
 // surface without a drive.
 std::string drive_text(const ResultFiles& files);

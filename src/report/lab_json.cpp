@@ -18,38 +18,32 @@ LabJson conditions_json(const Conditions& at) {
           {"state", finger_state_names()[static_cast<std::size_t>(at.state)]}};
 }
 
-LabJson outcomes_json(const std::vector<Foreseen>& thirds,
-                      const std::vector<std::string>& choices) {
+LabJson outcomes_json(const std::vector<Foreseen>& thirds) {
   LabJson out = LabJson::array();
   for (const Foreseen& o : thirds)
     out.push_back({{"low", json_number(o.low)},
                    {"high", json_number(o.high)},
-                   {"choice", choices.at(o.choice)},
+                   {"choice", o.design.empty() ? LabJson(nullptr) : LabJson(o.design)},
                    {"p_choice", json_number(o.p_choice)},
                    {"p_hypothesis", o.p_hypothesis}});
   return out;
 }
 
-std::vector<std::string> choices_of(const Lab& lab) {
-  std::vector<std::string> out;
-  for (const LabDesign& d : lab.designs()) {
-    if (d.choice) out.push_back(d.name);
-  }
-  return out;
-}
-
 LabJson standing_json(Lab& lab) {
   const Standing& s = lab.standing();
-  const std::vector<std::string> choices = choices_of(lab);
+  const auto name = [&](std::size_t choice) { return lab.designs()[s.choices[choice]].name; };
+  const double sign = worth_sign(lab.file(), s);
   LabJson designs = LabJson::array(), hypotheses = LabJson::object(), found = LabJson::array();
-  for (std::size_t i = 0; i < s.prospects.size(); ++i)
-    designs.push_back({{"name", choices[i]},
+  for (std::size_t i = 0; i < s.prospects.size(); ++i) {
+    const Standing::Interval worth = s.worth[i].times(sign);
+    designs.push_back({{"name", name(i)},
                        {"p_best", json_number(s.prospects[i].p_best)},
                        {"regret", json_number(s.prospects[i].regret)},
                        {"p_every_limit", json_number(s.prospects[i].p_limits)},
-                       {"worth", json_number(s.worth[i].middle)},
-                       {"worth_low", json_number(s.worth[i].low)},
-                       {"worth_high", json_number(s.worth[i].high)}});
+                       {"worth", json_number(worth.middle)},
+                       {"worth_low", json_number(worth.low)},
+                       {"worth_high", json_number(worth.high)}});
+  }
   for (std::size_t h = 0; h < s.p_hypothesis.size(); ++h)
     hypotheses[s.ensemble.hypotheses[h]] = json_number(s.p_hypothesis[h]);
   for (const Discrepancy& d : s.discrepancies.found)
@@ -59,8 +53,9 @@ LabJson standing_json(Lab& lab) {
                      {"deviation", json_number(d.deviation)}});
   return {{"readings", lab.readings().size()},
           {"worth", lab.file().worth},
-          {"best", s.decided() ? LabJson(choices[s.best]) : LabJson(nullptr)},
-          {"best_worth", json_number(s.best_worth)},
+          {"best", s.decided() ? LabJson(name(s.best)) : LabJson(nullptr)},
+          {"best_worth", json_number(sign * s.best_worth)},
+          {"unanswered", json_number(s.unanswered)},
           {"designs", std::move(designs)},
           {"hypotheses", std::move(hypotheses)},
           {"effective_members", json_number(s.effective_members)},
@@ -70,7 +65,6 @@ LabJson standing_json(Lab& lab) {
 }
 
 LabJson plan_json(const Lab& lab, const PlanRecord& plan) {
-  const std::vector<std::string> choices = choices_of(lab);
   LabJson experiments = LabJson::array();
   for (const PlannedExperiment& e : plan.experiments)
     experiments.push_back({{"id", e.id},
@@ -81,8 +75,8 @@ LabJson plan_json(const Lab& lab, const PlanRecord& plan) {
                            {"gain", json_number(e.gain)},
                            {"F_off", e.expected_off},
                            {"F_on", e.expected_on},
-                           {"outcomes_off", outcomes_json(e.off, choices)},
-                           {"outcomes_on", outcomes_json(e.on, choices)}});
+                           {"outcomes_off", outcomes_json(e.off)},
+                           {"outcomes_on", outcomes_json(e.on)}});
   return {
       {"date", plan.date},
       {"for", aim_names()[static_cast<std::size_t>(plan.aim)]},
@@ -105,6 +99,7 @@ LabJson decision_record_json(const DecisionRecord& d) {
           {"best", d.best.empty() ? LabJson(nullptr) : LabJson(d.best)},
           {"p_best", json_number(d.p_best)},
           {"regret", json_number(d.regret)},
+          {"designs", d.designs},
           {"p_designs", d.p_designs},
           {"p_hypothesis", d.p_hypothesis},
           {"effective_members", json_number(d.effective_members)},

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -124,12 +125,23 @@ class LabOpener {
       worth.kept.push_back(design.at("limits_kept_at_members").get<std::vector<bool>>());
       worth.by_skin.push_back(design.value("worth_moved_by_skins", std::vector<double>()));
     }
+    if (folder.has("best/build.toml")) {
+      const Design best = read_design(folder.file("best/design.toml"));
+      for (std::size_t i = 0; i < designs_.size(); ++i) {
+        if (is_same(designs_[i], best)) built_ = {i, read_design(folder.file("best/build.toml"))};
+      }
+    }
     file().worth = worth.name;
     file().worth_file = "worth.json";
     out_.opening.worth = std::move(worth);
   }
 
-  // Fields of a wafer. A design that a run has brought already is that one.
+  static bool is_same(const Design& a, const Design& b) {
+    return a.texture == b.texture && a.surface == b.surface;
+  }
+
+  // Fields of a wafer. A design that a run has brought already is that one, and so is the run's
+  // best with the rounded numbers that it is built with.
   void take_manifest(const std::string& path) {
     const MeasuredTable table = read_measured_table(read_bytes(path, std::size_t{1} << 26), path);
     std::vector<Problem> problems;
@@ -162,7 +174,14 @@ class LabOpener {
 
   std::size_t same_or_new(const std::string& name, const Design& design) {
     for (std::size_t i = 0; i < designs_.size(); ++i) {
-      if (designs_[i].texture == design.texture && designs_[i].surface == design.surface) return i;
+      if (is_same(designs_[i], design)) return i;
+    }
+    if (built_ && is_same(built_->design, design)) {
+      Design& best = designs_[built_->choice];  // what is measured is what was built
+      best.texture = design.texture;
+      best.surface = design.surface;
+      note(file().designs[built_->choice].name + " stands on the wafer with rounded numbers");
+      return built_->choice;
     }
     return add(fs::path(name).stem().string(), design, !has_run());
   }
@@ -292,6 +311,11 @@ class LabOpener {
   std::vector<std::string> opened_with_;
   std::string belief_;
   bool calibrated_ = false;
+  struct Built {
+    std::size_t choice;
+    Design design;
+  };
+  std::optional<Built> built_;  // the best of the run on the grid of the fab
 };
 
 }  // namespace

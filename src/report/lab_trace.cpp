@@ -55,6 +55,12 @@ class TracePicture {
     return kRecordLeft + (kRecordRight - kRecordLeft) * (trace_.time[sample] - from) / (to - from);
   }
 
+  // The middle of steady sliding in the record, from -1/2 to 1/2. Eq. lab.13
+  double late(const Stroke& s) const {
+    const std::vector<double>& t = trace_.time;
+    return (t[(s.steady.begin + s.steady.end) / 2] - t.front()) / (t.back() - t.front()) - 0.5;
+  }
+
   std::string legend() const {
     std::string out = "green: steady sliding; red lines: onsets; orange: stick-slip";
     if (reading_.off_sd > 0)
@@ -107,18 +113,19 @@ class TracePicture {
                        path);
   }
 
-  // What was read: the friction along each direction.
+  // What was read: the friction along each direction, about the zero of the sensor.
   template <class Y>
   std::string plateaus(const Y& y) const {
     std::string out;
     for (const Stroke& s : sliding_.strokes) {
+      const double zero = reading_.zero + reading_.zero_drift * late(s);
       for (const auto& [force, sd] :
            {std::pair(reading_.off, reading_.off_sd), std::pair(reading_.on, reading_.on_sd)}) {
         if (!(sd > 0) || s.steady.size() == 0) continue;
         out += fmt::format(
             "<path d=\"M{:.1f} {:.1f}H{:.1f}\" stroke=\"#333\" "
             "stroke-dasharray=\"3 3\"/>\n",
-            x(s.steady.begin), y(s.direction * force), x(s.steady.end - 1));
+            x(s.steady.begin), y(zero + s.direction * force), x(s.steady.end - 1));
       }
     }
     return out;
@@ -155,18 +162,27 @@ std::string decisions_svg(const Lab& lab) {
   static const std::vector<std::string> colours{"#1b6ca8", "#c0392b", "#2e8b57",
                                                 "#8e5ea2", "#d98e04", "#5b6770"};
   SvgPlot plot{"What the readings have decided", "readings", "p(best)", {}, true};
+  bool decided = false;
   for (const LabDesign& d : lab.designs()) {
-    if (!d.choice) continue;
-    SvgSeries line{d.name, colours[plot.series.size() % colours.size()], {}, {}, {}, {}, true};
+    SvgSeries line{d.choice ? d.name : d.name + ", no longer a choice",
+                   colours[plot.series.size() % colours.size()],
+                   {},
+                   {},
+                   {},
+                   {},
+                   true};
     for (const JournalEntry& e : lab.entries()) {
-      if (!e.decision || e.decision->p_designs.size() <= plot.series.size()) continue;
+      if (!e.decision) continue;
+      const std::vector<std::string>& names = e.decision->designs;
+      const auto at = std::find(names.begin(), names.end(), d.name);
+      if (at == names.end()) continue;
       line.x.push_back(static_cast<double>(e.decision->readings));
-      line.y.push_back(e.decision->p_designs[plot.series.size()]);
+      line.y.push_back(e.decision->p_designs[static_cast<std::size_t>(at - names.begin())]);
     }
-    plot.series.push_back(std::move(line));
+    decided |= !line.x.empty();
+    if (d.choice || !line.x.empty()) plot.series.push_back(std::move(line));
   }
-  if (plot.series.empty() || plot.series.front().x.empty()) return {};
-  return svg_picture({plot});
+  return decided ? svg_picture({plot}) : std::string();
 }
 
 }  // namespace papilla::report

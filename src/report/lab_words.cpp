@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "base/error.h"
 #include "base/text.h"
 #include "metrics/shown.h"
 #include "report/tables.h"
@@ -18,12 +20,17 @@ std::string lab_percent(double share) {
   return fmt::format("{:.0f} %", 100 * share);
 }
 
-const std::string& choice_name(const Lab& lab, std::size_t choice) {
-  std::size_t k = 0;
-  for (const LabDesign& d : lab.designs()) {
-    if (d.choice && k++ == choice) return d.name;
+const std::string& choice_name(const Lab& lab, const Standing& s, std::size_t choice) {
+  return lab.designs()[s.choices[choice]].name;
+}
+
+// What designs are compared in, where it is one metric: a run may compare them by more.
+std::optional<MetricExpression> worth_metric(const LabFile& file) {
+  try {
+    return parse_metric(file.worth);
+  } catch (const InputError&) {
+    return std::nullopt;
   }
-  return lab.designs().front().name;
 }
 
 std::string newtons(double force) { return significant(1e3 * force, 3) + " mN"; }
@@ -41,22 +48,30 @@ std::string hypotheses_text(const Ensemble& e, const std::vector<double>& p) {
   return join_names(out);
 }
 
-std::string regret_text(const Standing& s, double regret) {
-  if (s.best_worth == 0) return significant(regret, 2);
-  return fmt::format("{} ({} %)", significant(regret, 2),
+std::string in_worth_unit(const Lab& lab, double difference) {
+  const ShownUnit shown = worth_unit(lab.file());
+  return significant(shown.scale * difference, 2) + (shown.unit.empty() ? "" : " " + shown.unit);
+}
+
+std::string regret_text(const Lab& lab, const Standing& s, double regret) {
+  if (s.best_worth == 0) return in_worth_unit(lab, regret);
+  return fmt::format("{} ({} %)", in_worth_unit(lab, regret),
                      significant(100 * regret / std::abs(s.best_worth), 2));
 }
 
 std::string choices_table(const Lab& lab, const Standing& s) {
-  std::string out = markdown_head(
-      {"design", "p(best)", "expected regret", "worth, 95 %", "behind the best, 95 %"});
+  const ShownUnit shown = worth_unit(lab.file());
+  const std::string unit = shown.unit.empty() ? "" : " [" + shown.unit + "]";
+  std::string out = markdown_head({"design", "p(best)", "expected regret",
+                                   "worth" + unit + ", 95 %", "behind the best" + unit + ", 95 %"});
   for (std::size_t i = 0; i < s.prospects.size(); ++i) {
-    const auto band = [](const Standing::Interval& v) {
-      return fmt::format("{} ({} to {})", significant(v.middle, 3), significant(v.low, 3),
-                         significant(v.high, 3));
+    const auto band = [&](const Standing::Interval& v) {
+      return fmt::format("{} ({} to {})", significant(shown.scale * v.middle, 3),
+                         significant(shown.scale * v.low, 3), significant(shown.scale * v.high, 3));
     };
-    out += markdown_row({choice_name(lab, i), lab_percent(s.prospects[i].p_best),
-                         regret_text(s, s.prospects[i].regret), band(s.worth[i]),
+    out += markdown_row({choice_name(lab, s, i), lab_percent(s.prospects[i].p_best),
+                         regret_text(lab, s, s.prospects[i].regret),
+                         band(s.worth[i].times(worth_sign(lab.file(), s))),
                          i == s.best ? "" : band(s.behind[i])});
   }
   return out;
@@ -107,14 +122,14 @@ std::string members_text(const Standing& s) {
 }
 
 // "below 61 mN: front/02 (80 %); between: ...; above 75 mN: front/05 (64 %)"
-std::string thirds_text(const Lab& lab, const std::vector<Foreseen>& thirds) {
+std::string thirds_text(const std::vector<Foreseen>& thirds) {
   std::vector<std::string> out;
   for (std::size_t k = 0; k < thirds.size(); ++k) {
     const std::string where = k == 0                   ? "below " + newtons(thirds[k].high)
                               : k + 1 == thirds.size() ? "above " + newtons(thirds[k].low)
                                                        : std::string("between");
-    out.push_back(fmt::format("{}: {} ({})", where, choice_name(lab, thirds[k].choice),
-                              lab_percent(thirds[k].p_choice)));
+    out.push_back(
+        fmt::format("{}: {} ({})", where, thirds[k].design, lab_percent(thirds[k].p_choice)));
   }
   return join_names(out, "; ");
 }
@@ -125,12 +140,11 @@ bool changes(const std::vector<Foreseen>& thirds) {
   });
 }
 
-std::string outcomes_text(const Lab& lab, const PlanRecord& plan) {
+std::string outcomes_text(const PlanRecord& plan) {
   std::string out;
   for (const PlannedExperiment& e : plan.experiments) {
     for (const auto& [name, thirds] : {std::pair("F_off", &e.off), std::pair("F_on", &e.on)}) {
-      if (changes(*thirds))
-        out += fmt::format("- {}, {} {}\n", e.id, name, thirds_text(lab, *thirds));
+      if (changes(*thirds)) out += fmt::format("- {}, {} {}\n", e.id, name, thirds_text(*thirds));
     }
   }
   if (out.empty()) return "\nNo single outcome changes the choice.\n";
@@ -165,18 +179,18 @@ std::string plan_table(const Lab& lab, const PlanRecord& plan) {
   return out;
 }
 
-std::string stop_text(const Standing& s, const PlanRecord& plan) {
+std::string stop_text(const Lab& lab, const Standing& s, const PlanRecord& plan) {
   if (plan.aim != Aim::Decision) return {};
   if (plan.stop_reason == StopReason::Regret)
     return fmt::format(
         "\nStop: what is still expected to be lost, {}, is below what was said to be worth it "
         "(stop in lab.toml).\n",
-        regret_text(s, plan.regret_now));
+        regret_text(lab, s, plan.regret_now));
   if (plan.stop_reason == StopReason::NoChange)
     return fmt::format(
         "\nStop: more experiments change no decision. Of what is still expected to be lost, {}, "
         "they save less than was said to be worth it (stop in lab.toml).\n",
-        regret_text(s, plan.regret_now));
+        regret_text(lab, s, plan.regret_now));
   return "\nStop when the expected regret is below `stop` of lab.toml: `papilla tell` says it "
          "after "
          "every table.\n";
@@ -191,16 +205,53 @@ std::string empty_text(const PlanRecord& plan) {
       hours(plan.shortest));
 }
 
-std::string decision_line(const DecisionRecord& d) {
+std::string decision_line(const Lab& lab, const DecisionRecord& d) {
   std::string out =
       fmt::format("{}, {}", d.date, counted(static_cast<long long>(d.readings), "reading"));
   if (!d.best.empty())
     out += fmt::format(": {} is the best with probability {}, expected regret {}", d.best,
-                       lab_percent(d.p_best), significant(d.regret, 2));
+                       lab_percent(d.p_best), in_worth_unit(lab, d.regret));
   return out + fmt::format("; as good as {} members", significant(d.effective_members, 3));
 }
 
+std::string decision_reason(const Lab& lab, const Standing& s, const PlanRecord& plan) {
+  const std::string now = regret_text(lab, s, plan.regret_now),
+                    then = regret_text(lab, s, plan.regret_after);
+  const std::string why =
+      plan.regret_after < plan.regret_now
+          ? fmt::format(
+                "they lower the expected regret of the choice most for the time they take, from {} "
+                "to {}",
+                now, then)
+          : fmt::format(
+                "they tell the designs apart most for the time they take; the expected regret of "
+                "the choice does not fall by them, {} now and {} then{}",
+                now, then,
+                plan.regret_after > plan.regret_now
+                    ? ", as what they say of the limits may leave worse designs to choose among"
+                    : "");
+  return fmt::format(
+      "Why these: of all that can be measured {}; with probability {} another design is chosen "
+      "after them.",
+      why, lab_percent(plan.p_change));
+}
+
 }  // namespace
+
+ShownUnit worth_unit(const LabFile& file) {
+  const std::optional<MetricExpression> metric = worth_metric(file);
+  return metric ? shown_unit(*metric) : ShownUnit{};
+}
+
+// A run may maximise what is better lower: the sign of what is never negative says which it does.
+double worth_sign(const LabFile& file, const Standing& s) {
+  const std::optional<MetricExpression> metric = worth_metric(file);
+  if (!metric) return 1;
+  const bool less = keeps_sign(metric->summary, metric->metric)
+                        ? s.best_worth < 0
+                        : better_direction(*metric) == Better::Lower;
+  return less ? -1 : 1;
+}
 
 std::string lab_standing_text(Lab& lab) {
   const Standing& s = lab.standing();
@@ -208,10 +259,14 @@ std::string lab_standing_text(Lab& lab) {
   if (s.decided()) {
     const Prospect& best = s.prospects[s.best];
     out += fmt::format("{} is the best of {} in {} with probability {}; expected regret {}.\n\n",
-                       choice_name(lab, s.best), s.prospects.size(), lab.file().worth,
-                       lab_percent(best.p_best), regret_text(s, best.regret));
+                       choice_name(lab, s, s.best), s.prospects.size(), lab.file().worth,
+                       lab_percent(best.p_best), regret_text(lab, s, best.regret));
     out += choices_table(lab, s) + "\n";
   }
+  if (s.unanswered > 0)
+    out += fmt::format("At members with {} of belief no design has a value of {}: {}.\n\n",
+                       lab_percent(s.unanswered), lab.file().worth,
+                       s.decided() ? "the others alone decide" : "nothing is decided");
   if (s.ensemble.hypotheses.size() > 1)
     out += "Hypotheses: " + hypotheses_text(s.ensemble, s.p_hypothesis) + ".\n";
   return out + members_text(s) + discrepancy_text(s) + gauge_text(lab, s);
@@ -221,12 +276,7 @@ std::string lab_plan_reason(Lab& lab, const PlanRecord& plan) {
   const Standing& s = lab.standing();
   switch (plan.aim) {
     case Aim::Decision:
-      return fmt::format(
-          "Why these: of all that can be measured they lower the expected regret of the choice "
-          "most for the time they take, from {} to {}; with probability {} another design is "
-          "chosen after them.",
-          regret_text(s, plan.regret_now), regret_text(s, plan.regret_after),
-          lab_percent(plan.p_change));
+      return decision_reason(lab, s, plan);
     case Aim::Hypotheses:
       return "Why these: the hypotheses of the model differ most there for the scatter of a "
              "reading (T-optimal). They weigh now: " +
@@ -240,11 +290,11 @@ std::string lab_plan_reason(Lab& lab, const PlanRecord& plan) {
 std::string lab_plan_text(Lab& lab, const PlanRecord& plan) {
   const Standing& s = lab.standing();
   std::string out = "# What to measure next\n\n" + lab_standing_text(lab) + "\n";
-  if (plan.experiments.empty()) return out + empty_text(plan) + stop_text(s, plan);
+  if (plan.experiments.empty()) return out + empty_text(plan) + stop_text(lab, s, plan);
   out += plan_table(lab, plan) + "\n" + lab_plan_reason(lab, plan) +
          fmt::format(" It takes {}.\n", hours(plan.seconds));
-  if (plan.aim == Aim::Decision) out += outcomes_text(lab, plan);
-  return out + stop_text(s, plan);
+  if (plan.aim == Aim::Decision) out += outcomes_text(plan);
+  return out + stop_text(lab, s, plan);
 }
 
 std::string lab_told_text(const Lab& lab, const Told& told) {
@@ -278,8 +328,8 @@ std::string lab_told_text(const Lab& lab, const Told& told) {
     out += fmt::format("{}: {} not measured yet, left planned\n", file, counted(told.empty, "row"));
   for (const std::string& n : told.record.notes) out += "- " + n + "\n";
   if (!told.after) return out;
-  out += "\nBefore: " + decision_line(*told.before) + ".\n";
-  out += "Now:    " + decision_line(*told.after) + ".\n";
+  out += "\nBefore: " + decision_line(lab, *told.before) + ".\n";
+  out += "Now:    " + decision_line(lab, *told.after) + ".\n";
   if (told.before->best != told.after->best)
     out += fmt::format("The recommendation changes from {} to {}.\n", told.before->best,
                        told.after->best);
@@ -294,7 +344,7 @@ std::string lab_page(Lab& lab) {
     if (e.plan) last = &*e.plan;
     if (e.decision)
       decisions.push_back(
-          decision_line(*e.decision) +
+          decision_line(lab, *e.decision) +
           (e.plan ? fmt::format(
                         " ({} planned)",
                         counted(static_cast<long long>(e.plan->experiments.size()), "experiment"))

@@ -6,8 +6,14 @@
 
 #include "base/rooms.h"
 #include "lab/lab.h"
+#include "metrics/shown.h"
 
 namespace papilla::report {
+
+// What the worth of designs is shown in. It rises with what is wished for: of what is minimised it
+// is the negative value, and its sign here is -1.
+ShownUnit worth_unit(const LabFile& file);
+double worth_sign(const LabFile& file, const Standing& standing);
 
 // Which design, how surely, how much it is better; what the hypotheses weigh; what no member
 // explains; how many readings, and whether a new fit is due.

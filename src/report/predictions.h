@@ -10,7 +10,8 @@
 namespace papilla::report {
 
 // For people, Markdown, CSV; JSON as {"schema": 1, "finger", "predictions": [{"id", "condition",
-// "quantity", "unit", "value", "se", "beside"}]}.
+// "quantity", "unit", "value", "se", "model", "beside", "model_note"}]}; model_note: why a number
+// has no model part, or of how many members.
 std::string predictions_text(const std::vector<Prediction>& predictions);
 std::string predictions_markdown(const std::vector<Prediction>& predictions,
                                  const std::string& finger);

@@ -16,6 +16,7 @@
 #include "metrics/shown.h"
 #include "numerics/statistics.h"
 #include "report/json.h"
+#include "report/markup.h"
 #include "report/page.h"
 #include "report/sums.h"
 #include "report/svg.h"
@@ -385,7 +386,8 @@ std::string radar_svg(const std::vector<std::string>& names, const RankOptions& 
   for (std::size_t a = 0; a < axes; ++a) {
     out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
                        kCentre + (kRadius + 26) * std::cos(angle(a)),
-                       kCentre + (kRadius + 26) * std::sin(angle(a)), options.criteria[a].text());
+                       kCentre + (kRadius + 26) * std::sin(angle(a)),
+                       markup_text(options.criteria[a].text()));
   }
   for (std::size_t i = 0; i < state.candidates.size(); ++i) {
     const RankedCandidate& r = state.candidates[i];
@@ -397,7 +399,7 @@ std::string radar_svg(const std::vector<std::string>& names, const RankOptions& 
       out += point(a, share_of_best(state, a, options.criteria[a].high, r.metrics[a].value));
     out += "\"/>\n";
     out += fmt::format("<text x=\"500\" y=\"{}\" fill=\"{}\">{}. {}</text>\n",
-                       60 + 22 * static_cast<int>(i), colour, r.rank, names[r.index]);
+                       60 + 22 * static_cast<int>(i), colour, r.rank, markup_text(names[r.index]));
   }
   return out + "</svg>\n";
 }

@@ -152,7 +152,7 @@ std::string worth_building(const ResultFiles& f) {
   const OptimiseResult& r = f.result;
   const FinalDesign& best = best_of(f);
   std::vector<std::string> clauses;
-  if (judged_at_amplitude(f)) {
+  if (judged_at_amplitude(f.problem)) {
     const auto rounded = worth_on_grid(f.problem, r);
     clauses.push_back(fmt::format(
         "Its worst modulation, (F_on - F_off)/F_off, over fingers and humidity is {}{}{}.",
@@ -166,10 +166,7 @@ std::string worth_building(const ResultFiles& f) {
                : ""));
   }
   if (r.flat) {
-    std::vector<std::string> broken;
-    for (const LimitValue& v : broken_without_texture(f.problem, r))
-      broken.push_back(limit_broken(v));
-    if (!broken.empty())
+    if (const auto broken = broken_texts(broken_without_texture(f.problem, r)); !broken.empty())
       clauses.push_back(fmt::format("Without its texture the same surface breaks a limit: {}.",
                                     join_names(broken)));
     if (const std::string same = gains_and_costs(
@@ -221,11 +218,17 @@ std::string change_finish(const ResultFiles& f) {
         none, finish_text(f), without_number(r.flat_before_unanswered), others, rounding_text(f),
         unstable_recommended(f));
   }
-  return fmt::format("Leave it flat and change the finish ({}): that gains {}; {}.{}{}{}",
-                     finish_text(f),
-                     changes(f, "the finish of the best less that of the study",
-                             r.flat ? *r.flat : best_of(f).confirmed, *r.flat_before, true),
-                     none, others, rounding_text(f), unstable_recommended(f));
+  std::vector<std::string> does;
+  if (std::string both = gains_and_costs(f, "the finish of the best less that of the study",
+                                         r.flat ? *r.flat : best_of(f).confirmed, *r.flat_before);
+      !both.empty())
+    does.push_back("that " + both);
+  if (const std::vector<std::string> broken = broken_texts(broken_before(f.problem, r));
+      !broken.empty())
+    does.push_back("the study's own surface breaks a limit (" + join_names(broken) + ")");
+  does.push_back(none);
+  return fmt::format("Leave it flat and change the finish ({}): {}.{}{}{}", finish_text(f),
+                     join_names(does, "; "), others, rounding_text(f), unstable_recommended(f));
 }
 
 }  // namespace

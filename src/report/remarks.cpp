@@ -73,7 +73,7 @@ std::string clock_remark(const Study& study, const OptimiseResult& r) {
                      join_names(unsure, "; "));
 }
 
-std::string few_remark(const OptimiseResult& r) {
+std::string few_remark(const StudyProblem& problem, const OptimiseResult& r) {
   if (r.evaluations >= r.asked) return {};
   const std::string made =
       fmt::format("{} where {} were asked for", counted(r.evaluations, "evaluation"), r.asked);
@@ -81,10 +81,10 @@ std::string few_remark(const OptimiseResult& r) {
     case SearchEnd::Exhausted:
       return made + ": the search had nothing more to try.";
     case SearchEnd::Refusals:
-      return made +
-             ": the limits of the shape refused ten times as many designs; loosen them or narrow "
-             "the "
-             "design space.";
+      return fmt::format(
+          "{}: the limits of the shape{} refused ten times as many designs; loosen them or narrow "
+          "the design space.",
+          made, problem.constraints().in_look().empty() ? "" : " and of its look");
     case SearchEnd::Asked:
       return made + ": the search was ended by request.";
     case SearchEnd::Before:
@@ -144,7 +144,7 @@ std::vector<std::string> run_remarks(const Study& study, const StudyProblem& pro
     if (!text.empty()) out.push_back(std::move(text));
   };
   add(clock_remark(study, result));
-  add(few_remark(result));
+  add(few_remark(problem, result));
   for (const OneValue& one : result.one_value)
     add(one_value_remark(study, one, result.evaluations));
   for (const AtBound& at : result.at_bound) {

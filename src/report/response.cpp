@@ -181,6 +181,8 @@ std::string field_lines(const Response& response) {
     if (m.value >= kFarthestPullIn) {
       out += fmt::format("pull-in at {:.0f} % RH: beyond {:g} times this voltage\n", percent,
                          kFarthestPullIn);
+    } else if (m.value == 0) {
+      out += fmt::format("pull-in at {:.0f} % RH: water alone closes the gap\n", percent);
     } else {
       out += fmt::format(
           "pull-in at {:.0f} % RH: {} at {:.3g} ± {:.2g} times this voltage\n", percent,
@@ -361,12 +363,14 @@ std::string parameter_line(const ParameterSteps& p) {
 }  // namespace
 
 std::string response_svg(const Response& response, const std::string& title) {
-  const auto curve = [&](const char* name, const char* colour, double scale, auto member) {
+  // Where a point has no number the curve has none: NaN is not drawn.
+  const auto curve = [&](const char* name, const char* colour, double scale, auto member,
+                         bool (ResponsePoint::*known)() const) {
     SvgSeries s{.name = name, .colour = colour, .x = {}, .y = {}, .ex = {}, .ey = {}};
     s.line = s.band = true;
     for (const ResponsePoint& p : response.points) {
       s.x.push_back(100 * p.relative_humidity);
-      s.y.push_back(scale * (p.*member).value);
+      s.y.push_back((p.*known)() ? scale * (p.*member).value : std::nan(""));
       s.ey.push_back(2 * scale * (p.*member).se());
     }
     return s;
@@ -374,15 +378,18 @@ std::string response_svg(const Response& response, const std::string& title) {
   SvgPlot force{.title = title,
                 .x = "relative humidity [%]",
                 .y = "friction [mN]",
-                .series = {curve("drive off", "#1f6f9f", 1e3, &ResponsePoint::friction_off)},
+                .series = {curve("drive off", "#1f6f9f", 1e3, &ResponsePoint::friction_off,
+                                 &ResponsePoint::knows_undriven)},
                 .from_zero = true};
   if (!response.driven) return svg_picture({force});
-  force.series.push_back(curve("drive on", "#c2571a", 1e3, &ResponsePoint::friction_on));
+  force.series.push_back(
+      curve("drive on", "#c2571a", 1e3, &ResponsePoint::friction_on, &ResponsePoint::knows_driven));
   return svg_picture({force,
                       {.title = "",
                        .x = "relative humidity [%]",
                        .y = "modulation (F_on - F_off)/F_off",
-                       .series = {curve("", "#3a7d44", 1, &ResponsePoint::modulation)},
+                       .series = {curve("", "#3a7d44", 1, &ResponsePoint::modulation,
+                                        &ResponsePoint::knows_driven)},
                        .from_zero = true}});
 }
 

@@ -88,9 +88,9 @@ class Writer {
     return out;
   }
 
-  // Without a drive there is no modulation.
+  // Without a drive there is no modulation; of voltages that are found it says nothing.
   std::string worst_text(bool ok, double worst) const {
-    return ok && f_.problem.driven() ? fmt::format("{:.6g}", worst) : std::string();
+    return ok && judged_at_amplitude(f_.problem) ? fmt::format("{:.6g}", worst) : std::string();
   }
   Json worst_json(const Score& score) const {
     return score.ok && f_.problem.driven() ? Json(json_number(score.worst)) : Json(nullptr);

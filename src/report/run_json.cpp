@@ -76,7 +76,7 @@ Json compared_row(const ResultFiles& f, const std::string& surface, const std::s
   Json values = Json::array();
   for (std::size_t k = 0; k < score.values.size(); ++k)
     values.push_back(objective_text(f, of, score, k));
-  if (judged_at_amplitude(f)) values.push_back(worst_text(of, score.worst));
+  if (judged_at_amplitude(f.problem)) values.push_back(worst_text(of, score.worst));
   return {{"surface", surface}, {"values", std::move(values)}};
 }
 
@@ -88,7 +88,7 @@ Json compared_json(const ResultFiles& f) {
   const std::string name = recommended.flat ? "without texture" : design_name(recommended.folder);
   Json names = Json::array(), rows = Json::array();
   for (const StudyObjective& o : f.problem.objectives()) names.push_back(o.name);
-  if (judged_at_amplitude(f)) names.emplace_back("worst modulation");
+  if (judged_at_amplitude(f.problem)) names.emplace_back("worst modulation");
   rows.push_back(
       compared_row(f, name + ", recommended", "what is recommended", recommended.confirmed));
   if (r.flat && !recommended.flat)

@@ -9,10 +9,12 @@
 #include "base/units.h"
 #include "metrics/shown.h"
 #include "report/decision.h"
+#include "report/grounds.h"
 #include "report/recommendation.h"
 #include "report/remarks.h"
 #include "report/shared.h"
 #include "report/sheet.h"
+#include "report/tables.h"
 #include "report/unstable.h"
 
 namespace papilla::report {
@@ -29,8 +31,7 @@ std::string with_errors(const StudyObjective& o, const Score& score, std::size_t
 
 // Of an objective: "mean(adhesion) [mN]", "distance(modulation)" as it is named.
 std::string heading(const StudyObjective& o) {
-  const std::string unit = shown_unit(o.expression).unit;
-  return o.name + (unit.empty() ? "" : " [" + unit + "]");
+  return name_with_unit(o.name, shown_unit(o.expression).unit);
 }
 
 // What decides which of the front is the best, in words.
@@ -43,6 +44,11 @@ std::string rule_text(const ResultFiles& f) {
            of_the_sure_text(f);
   }
   if (!f.pick.empty() && f.pick != "worst") return "picked by \"" + f.pick + "\"";
+  if (f.problem.driven() && !judged_at_amplitude(f.problem))
+    return f.problem.objectives().size() == 1
+               ? "the best in " + f.problem.objectives().front().name
+               : "the highest worst modulation over fingers and humidity at the amplitude of the "
+                 "study file";
   return f.problem.driven() ? "the highest worst modulation over fingers and humidity"
                             : "the knee of the front: the least sum of its scaled objectives";
 }
@@ -73,13 +79,13 @@ std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
     out += fmt::format(" {} |", heading(o));
     rule += "---|";
   }
-  const bool driven = f.problem.driven();
-  out += (driven ? " worst modulation |\n" : "\n") + rule + (driven ? "---|\n" : "\n");
+  const bool with_worst = judged_at_amplitude(f.problem);
+  out += (with_worst ? " worst modulation |\n" : "\n") + rule + (with_worst ? "---|\n" : "\n");
   const auto row = [&](const char* name, const Score& s) {
     out += fmt::format("| {} |", name);
     for (std::size_t k = 0; k < objectives.size(); ++k)
       out += fmt::format(" {} |", with_errors(objectives[k], s, k));
-    out += driven ? fmt::format(" {:.3f} |\n", s.worst) : "\n";
+    out += with_worst ? fmt::format(" {:.3f} |\n", s.worst) : "\n";
   };
   if (flat_best) out = "\n**" + std::string(kNoBetter) + "**\n" + out;
   if (r.flat_before) row("flat, finish and drive of the study file", *r.flat_before);
@@ -96,7 +102,7 @@ std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
         out += fmt::format(" ({})", shown_error(e, *part));
       out += " |";
     }
-    out += driven ? " |\n" : "\n";
+    out += with_worst ? " |\n" : "\n";
   };
   difference("difference made by the texture", *r.flat);
   if (const auto rounded = worth_on_grid(f.problem, r))
@@ -276,13 +282,13 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
   for (const Variable& v : study.variables) out += " | " + v.path;
   for (const StudyObjective& o : objectives)
     out += fmt::format(" | {} {}", o.maximise ? "max" : "min", heading(o));
-  const bool driven = problem.driven();
-  if (driven) out += " | worst modulation";
+  const bool with_worst = judged_at_amplitude(problem);
+  if (with_worst) out += " | worst modulation";
   for (const Constraint& c : study.constraints)
     out += fmt::format(" | {} {}", limit_name(c.on), limit_text(c));
   out += " |\n|";
   const std::size_t columns =
-      study.variables.size() + objectives.size() + (driven ? 2 : 1) + study.constraints.size();
+      study.variables.size() + objectives.size() + (with_worst ? 2 : 1) + study.constraints.size();
   for (std::size_t i = 0; i < columns; ++i) out += "---|";
   out += "\n";
   for (const FinalDesign& d : result.finalists) {
@@ -297,7 +303,7 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
       out += fmt::format(" | {}",
                          d.confirmed.ok ? with_errors(objectives[k], d.confirmed, k) : "failed");
     }
-    if (driven) out += d.confirmed.ok ? fmt::format(" | {:.3f}", d.confirmed.worst) : " |";
+    if (with_worst) out += d.confirmed.ok ? fmt::format(" | {:.3f}", d.confirmed.worst) : " |";
     for (const LimitValue& v : limit_values(problem, d))
       out += " | " + limit_value_text(v.limit, v.value) + (v.kept() ? "" : ", **broken**");
     for (std::size_t i = 0; i < study.constraints.size() && !d.confirmed.ok; ++i) out += " |";

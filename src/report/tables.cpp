@@ -74,6 +74,10 @@ std::string csv_cell(std::string text) {
   return text;
 }
 
+std::string name_with_unit(const std::string& name, const std::string& unit) {
+  return name + (unit.empty() ? "" : " [" + unit + "]");
+}
+
 std::string markdown_row(const std::vector<std::string>& cells) {
   return "| " + join_names(cells, " | ") + " |\n";
 }

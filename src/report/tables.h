@@ -27,6 +27,9 @@ CsvTable read_csv(const Folder& folder, const std::string& name);
 // A text as one cell of such a table: commas become semicolons.
 std::string csv_cell(std::string text);
 
+// "mean(adhesion) [mN]": of numbers in a unit; the name alone of a share.
+std::string name_with_unit(const std::string& name, const std::string& unit);
+
 // "| a | b |" and, for a head, the line below it; with the ends of lines.
 std::string markdown_row(const std::vector<std::string>& cells);
 std::string markdown_head(const std::vector<std::string>& names);

@@ -329,6 +329,14 @@ void fields(FieldVisitor& v, ParameterDeviation& s) {
             s.correlation);
 }
 
+Finger Finger::touching_as(const Finger& other) const {
+  Finger out = *this;
+  out.load = other.load;
+  out.state = other.state;
+  out.touch_time = other.touch_time;
+  return out;
+}
+
 Finger Finger::applied() const {
   Finger out = *this;
   // First-order kinetics of what is not saturated yet. Eq. scene.11

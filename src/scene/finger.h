@@ -202,6 +202,8 @@ struct Finger {
   // The clean finger with the skin angle, sweat, shear and hydration of its state, and what the
   // touch has added to its hydration. Eq. scene.11
   Finger applied() const;
+  // This finger by the load, the state and the time of another's touch.
+  Finger touching_as(const Finger& other) const;
   // d/eps of its stratum corneum [m], at its hydration.
   double skin_layer(double relative_humidity) const;
 

@@ -52,7 +52,7 @@ const std::vector<ColumnKind>& table_kinds() {
                                              {"state", "", true, {}},
                                              {"repeat", "", false, {}},
                                              {"load", "N", false, {"normal"}},
-                                             {"humidity", "%", false, {}},
+                                             {"humidity", "%", false, {"relative_humidity"}},
                                              {"relative_humidity", "", true, {}},
                                              {"voltage", "V", false, {"amplitude"}},
                                              {"frequency", "Hz", false, {}},

@@ -26,6 +26,10 @@ FinalDesign best_without_texture(const StudyProblem& problem, const OptimiseResu
   return flat_surface(problem, best_of(r).unit, *r.flat);
 }
 
+FinalDesign own_without_texture(const StudyProblem& problem, const OptimiseResult& r) {
+  return flat_surface(problem, problem.space().own_surface(), *r.flat_before);
+}
+
 }  // namespace
 
 std::vector<std::size_t> changed_finish(const StudyProblem& problem, const OptimiseResult& r) {
@@ -42,6 +46,10 @@ std::vector<std::size_t> changed_finish(const StudyProblem& problem, const Optim
 std::vector<LimitValue> broken_without_texture(const StudyProblem& problem,
                                                const OptimiseResult& r) {
   return broken(problem, best_without_texture(problem, r));
+}
+
+std::vector<LimitValue> broken_before(const StudyProblem& problem, const OptimiseResult& r) {
+  return broken(problem, own_without_texture(problem, r));
 }
 
 Advice advice_of(const StudyProblem& problem, const OptimiseResult& r) {
@@ -63,8 +71,9 @@ Advice advice_of(const StudyProblem& problem, const OptimiseResult& r) {
     return Advice::Texture;
   if (!r.flat_before)
     return changed_finish(problem, r).empty() ? Advice::LeaveFlat : Advice::Finish;
-  const FinalDesign own = flat_surface(problem, problem.space().own_surface(), *r.flat_before);
-  return beats(r.flat ? *r.flat : best_of(r).confirmed, own) ? Advice::Finish : Advice::LeaveFlat;
+  return beats(r.flat ? *r.flat : best_of(r).confirmed, own_without_texture(problem, r))
+             ? Advice::Finish
+             : Advice::LeaveFlat;
 }
 
 FinalDesign recommended_design(const StudyProblem& problem, const OptimiseResult& r) {
@@ -74,8 +83,7 @@ FinalDesign recommended_design(const StudyProblem& problem, const OptimiseResult
     case Advice::Texture:
       return best_of(r);
     case Advice::LeaveFlat:
-      if (r.flat_before)
-        return flat_surface(problem, problem.space().own_surface(), *r.flat_before);
+      if (r.flat_before) return own_without_texture(problem, r);
       break;
     case Advice::Finish:
       break;

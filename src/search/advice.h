@@ -34,6 +34,9 @@ std::vector<std::size_t> changed_finish(const StudyProblem& problem, const Optim
 std::vector<LimitValue> broken_without_texture(const StudyProblem& problem,
                                                const OptimiseResult& result);
 
+// Those of the study's own surface without a texture, of a run that asked for it.
+std::vector<LimitValue> broken_before(const StudyProblem& problem, const OptimiseResult& result);
+
 // The best flat surface that was confirmed, of the finalists, by the first objective.
 std::optional<std::size_t> best_flat(const StudyProblem& problem, const OptimiseResult& result);
 

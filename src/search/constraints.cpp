@@ -14,7 +14,27 @@
 namespace papilla::search {
 namespace {
 
-std::string look_refusal(const Design& d) { return optics_refusal(d.texture, d.surface, d.view); }
+// What a design is in each scenario that counts.
+std::vector<Design> in_scenarios(const Study& study, const Design& design) {
+  if (study.scenarios.empty()) return {design};
+  std::vector<Design> out;
+  for (const Scenario& scenario : study.scenarios) {
+    if (scenario.weight > 0) out.push_back(with_settings(design, scenario.set));
+  }
+  return out;
+}
+
+// The one that a limit is about; nothing where there is none. Which is the worst depends on the
+// limit: gloss falls as haze rises.
+std::optional<double> worst_look(const LookLimit& l, bool at_least,
+                                 const std::vector<Look>& looks) {
+  std::optional<double> out;
+  for (const Look& look : looks) {
+    const double value = look.*l.number;
+    if (!out || (at_least ? value < *out : value > *out)) out = value;
+  }
+  return out;
+}
 
 // A look that is not calculated in a millisecond, of some kind of texture.
 bool slow_look(const Study& study) {
@@ -93,19 +113,36 @@ Judged StudyConstraints::in_before_evaluation() const {
 // Why a design cannot be judged at all; "" where it can.
 std::string StudyConstraints::refusal(const Design& design) const {
   const std::string trouble = shape_trouble(study_, tasks_, design);
-  return trouble.empty() && goals_.looks ? look_refusal(design) : trouble;
+  if (!trouble.empty() || !goals_.looks) return trouble;
+  for (const Design& d : looked_at(design)) {
+    if (std::string refused = optics_refusal(d.texture, d.surface, d.view); !refused.empty())
+      return refused;
+  }
+  return {};
+}
+
+std::vector<Design> StudyConstraints::looked_at(const Design& design) const {
+  std::vector<Design> out;
+  for (Design& d : in_scenarios(study_, design)) {
+    const bool known = std::any_of(out.begin(), out.end(), [&](const Design& other) {
+      return other.texture == d.texture && other.surface == d.surface && other.view == d.view;
+    });
+    if (!known) out.push_back(std::move(d));
+  }
+  return out;
+}
+
+std::vector<Look> StudyConstraints::looks(const Design& design) const {
+  std::vector<Look> out;
+  for (const Design& d : looked_at(design)) out.push_back(appearance_of(d));
+  return out;
 }
 
 double StudyConstraints::film_margin(const Design& design) const {
   if (!goals_.own_amplitude || design.drive.control != DriveControl::Voltage) return kInfinity;
-  const auto margin = [](const Design& d) {
-    return bridged_margin(d.surface, d.texture, d.drive, d.drive.amplitude);
-  };
-  if (study_.scenarios.empty()) return margin(design);
   double out = kInfinity;
-  for (const Scenario& scenario : study_.scenarios) {
-    if (scenario.weight > 0) out = std::min(out, margin(with_settings(design, scenario.set)));
-  }
+  for (const Design& d : in_scenarios(study_, design))
+    out = std::min(out, bridged_margin(d.surface, d.texture, d.drive, d.drive.amplitude));
   return out;
 }
 
@@ -115,18 +152,19 @@ std::optional<double> StudyConstraints::value_before(const Constraint& limit,
   struct Of {
     const StudyConstraints& all;
     const Design& design;
+    bool at_least;
 
     std::optional<double> operator()(const ShapeLimit& l) const {
       return margin_of(l.margin, facts(design.texture).margins);
     }
     std::optional<double> operator()(const FilmLimit&) const { return all.film_margin(design); }
     std::optional<double> operator()(const LookLimit& l) const {
-      return appearance_of(design).*l.number;
+      return worst_look(l, at_least, all.looks(design));
     }
     std::optional<double> operator()(const MetricLimit&) const { return std::nullopt; }
     std::optional<double> operator()(const YieldLimit&) const { return std::nullopt; }
   };
-  return std::visit(Of{*this, design}, limit.on);
+  return std::visit(Of{*this, design, limit.at_least}, limit.on);
 }
 
 // Nothing of what an evaluation does not say: of a look, where it was not asked for one.
@@ -140,12 +178,7 @@ std::optional<double> StudyConstraints::value_with(const Constraint& limit,
     std::optional<double> operator()(const ShapeLimit&) const { return std::nullopt; }
     std::optional<double> operator()(const FilmLimit&) const { return numbers.oxide_margin; }
     std::optional<double> operator()(const LookLimit& l) const {
-      std::optional<double> out;
-      for (const Look& look : numbers.looks) {
-        const double value = look.*l.number;
-        if (!out || (at_least ? value < *out : value > *out)) out = value;
-      }
-      return out;
+      return worst_look(l, at_least, numbers.looks);
     }
     std::optional<double> operator()(const MetricLimit& l) const {
       return numbers.limited.at(goals.place_of(l));
@@ -176,10 +209,12 @@ std::vector<double> StudyConstraints::look(const Design& d) const {
   if (look_.empty()) return {};
   // A shape that cannot be judged has no numbers to compare.
   if (!possible(d)) return std::vector<double>(look_.size(), 1.0);
-  const Look look = appearance_of(d);
+  const std::vector<Look> all = looks(d);
   std::vector<double> out;
-  for (const Constraint* limit : look_)
-    out.push_back(violation(*limit, look.*std::get<LookLimit>(limit->on).number));
+  for (const Constraint* limit : look_) {
+    const auto& on = std::get<LookLimit>(limit->on);
+    out.push_back(violation(*limit, worst_look(on, limit->at_least, all).value()));
+  }
   return out;
 }
 
@@ -189,8 +224,7 @@ std::vector<double> StudyConstraints::before_evaluation(const Design& d) const {
   return out;
 }
 
-std::string StudyConstraints::geometry_reason(const Point& unit) const {
-  const Design d = space_.design(unit);
+std::string StudyConstraints::geometry_reason(const Design& d) const {
   if (const std::string wrong = refusal(d); !wrong.empty()) return wrong;
   for (const Constraint* limit : in_before_evaluation()) {
     if (!limit) continue;

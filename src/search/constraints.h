@@ -44,7 +44,7 @@ class StudyConstraints {
   std::vector<double> geometry(const Point& unit) const { return geometry(space_.design(unit)); }
   std::vector<double> geometry(const Design& design) const;
   const Judged& in_geometry() const { return geometry_; }
-  // Of its look: an optical calculation.
+  // Of its look, in the scenario where it is worst: an optical calculation.
   std::vector<double> look(const Point& unit) const { return look(space_.design(unit)); }
   std::vector<double> look(const Design& design) const;
   const Judged& in_look() const { return look_; }
@@ -58,8 +58,15 @@ class StudyConstraints {
   std::vector<double> before_evaluation(const Design& design) const;
   Judged in_before_evaluation() const;
 
+  // What a viewer meets of a design: in each scenario that counts, the same look once.
+  std::vector<Design> looked_at(const Design& design) const;
+  std::vector<Look> looks(const Design& design) const;
+
   // Why the shape or its look is refused, for people; "" where it is not.
-  std::string geometry_reason(const Point& unit) const;
+  std::string geometry_reason(const Point& unit) const {
+    return geometry_reason(space_.design(unit));
+  }
+  std::string geometry_reason(const Design& design) const;
   // Whether the shape exists and can be judged.
   bool possible(const Design& design) const { return refusal(design).empty(); }
   // The breakdown margin as far as it is known before an evaluation, at the scenario that is worst;

@@ -77,6 +77,12 @@ std::size_t skins_behind(const TaskAnswer& answer) {
   return out;
 }
 
+// Of a limit on the shape or its look: finger and model change nothing of them.
+bool is_of_the_surface(const Constraint& limit) {
+  return std::holds_alternative<ShapeLimit>(limit.on) ||
+         std::holds_alternative<LookLimit>(limit.on);
+}
+
 bool keeps_limits(const StudyProblem& problem, const FinalDesign& design, const Score& there) {
   return problem.feasible(there, design.design);
 }
@@ -162,9 +168,12 @@ MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDes
       const SkinnedWorth alone = skinned(f.few[m].score, f.few[m].by_skin);
       values.push_back(there.ok ? alone.worth : std::nan(""));
       by_skin.push_back(alone.by_skin);
-      if (!there.ok) continue;
-      const std::vector<LimitValue> limits = problem.constraints().values(f.design, there);
-      for (std::size_t k = 0; k < kept.size(); ++k) kept[k][m] = limits[k].kept();
+      // Where there is no answer, a limit that needs one is not kept.
+      const Score& known = there.ok ? there : f.confirmed;
+      if (!known.ok) continue;
+      const std::vector<LimitValue> limits = problem.constraints().values(f.design, known);
+      for (std::size_t k = 0; k < kept.size(); ++k)
+        kept[k][m] = (there.ok || is_of_the_surface(limits[k].limit)) && limits[k].kept();
     }
   }
   const bool in_proportion = moves_in_proportion(problem, rule);
@@ -176,7 +185,7 @@ MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDes
 PickCandidate pick_candidate(const StudyProblem& problem, const Score& score) {
   PickCandidate out;
   for (const StudyObjective& o : problem.objectives()) out.names.push_back(o.name);
-  out.objectives = problem.outcome(score).objectives;
+  out.objectives = problem.minimised(score);
   if (problem.driven()) out.worst = score.worst;
   out.errors = score.errors;
   return out;
@@ -230,7 +239,7 @@ void add_members(const StudyProblem& problem, const std::vector<TaskAnswer>& ans
     const auto score = [&](auto&& by) {
       std::vector<TaskAnswer> all;
       for (std::size_t t = 0; t < tasks; ++t) all.push_back(there(t, by));
-      return problem.score(design.design, all);
+      return problem.score_without_yield(all);
     };
     SkinnedScore out{score([](const TaskAnswer& a) { return a; }), {}};
     std::size_t skins = 0;

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numerics/statistics.h"
+#include "optim/gaussian_process.h"
 #include "optim/pareto.h"
 #include "search/levels.h"
+#include "search/rounding.h"
 #include "search/stages.h"
 
 namespace papilla::search {
@@ -46,6 +49,28 @@ std::vector<Evaluation> known_drafts(const std::vector<Evaluation>& history) {
   return out;
 }
 
+// The numbers of a design as the fab would draw it; in full where it has no grid.
+std::vector<double> as_drawn(const Run& run, const Point& unit) {
+  std::vector<double> out = run.problem.space().value(unit);
+  const double grid = run.study.search.rounding;
+  for (std::size_t k = 0; k < out.size() && grid > 0; ++k)
+    out[k] = on_grid(run.study.variables[k], out[k], grid);
+  return out;
+}
+
+// Those of one level that are predicted to be the best; of two that the fab draws alike the first.
+std::vector<std::size_t> predicted_best(const Run& run, const JudgedDesigns& below) {
+  std::vector<std::size_t> out;
+  std::vector<std::vector<double>> drawn;
+  for (std::size_t i : chosen_of(run.search, below, kFinalists)) {
+    std::vector<double> numbers = as_drawn(run, below.evaluations[i].unit);
+    if (std::find(drawn.begin(), drawn.end(), numbers) != drawn.end()) continue;
+    drawn.push_back(std::move(numbers));
+    out.push_back(i);
+  }
+  return out;
+}
+
 bool apart(const Point& a, const Point& b) {
   for (std::size_t k = 0; k < a.size(); ++k) {
     if (std::abs(a[k] - b[k]) > kApart) return true;
@@ -72,12 +97,12 @@ void add_rivals(const JudgedDesigns& below, std::vector<std::size_t>& chosen) {
   }
 }
 
-// The finalists, and the surface of the first one by the first objective without its texture: a
-// texture of a nanometre must not pass for a design because its patch has other skins.
-std::vector<Point> to_confirm(const Run& run, const JudgedDesigns& below) {
+// The best, their rivals, and the surface of the first one by the first objective without its
+// texture: a texture of a nanometre must not pass for a design because its patch has other skins.
+std::vector<Point> to_confirm(const Run& run, const JudgedDesigns& below,
+                              std::vector<std::size_t> chosen) {
   std::vector<Point> out;
   const Evaluation* first = nullptr;
-  std::vector<std::size_t> chosen = chosen_of(run.search, below, kFinalists);
   if (run.problem.belief()) add_rivals(below, chosen);
   for (std::size_t i : chosen) {
     const Evaluation& e = below.evaluations[i];
@@ -130,43 +155,138 @@ Evaluation as_evaluation(const StudyProblem& problem, const FinalDesign& f) {
   return e;
 }
 
-// A design on the edge of a constraint holds on fresh skins in half of all cases: where no finalist
-// does, the next safer one is confirmed too (Eq. search.13). Where none is left, the confirmation
-// searches itself, by the level below with its limits tightened, until it has confirmed as many as
-// ever.
+// What designs are predicted to gain beside those that held, times their chance to keep every
+// limit, by models through what is known of the confirmation. Eq. search.3
+class Promises {
+ public:
+  Promises(const Run& run, const std::vector<Evaluation>& known,
+           const std::vector<Evaluation>& held)
+      : run_(run), held_(held) {
+    std::vector<Point> points;
+    std::vector<const Outcome*> outcomes;
+    for (const Evaluation& e : known) {
+      if (!e.outcome.ok) continue;
+      points.push_back(model_coordinates(run.search, e.unit));
+      outcomes.push_back(&e.outcome);
+    }
+    const auto models = [&](std::vector<double> Outcome::*numbers, std::size_t count) {
+      std::vector<GaussianProcess> out;
+      for (std::size_t k = 0; k < count; ++k) {
+        std::vector<double> values;
+        for (const Outcome* o : outcomes) values.push_back((o->*numbers)[k]);
+        out.emplace_back(points, values);
+      }
+      return out;
+    };
+    objectives_ = models(&Outcome::objectives, run.search.objectives);
+    limits_ = models(&Outcome::constraints, run.search.constraints);
+  }
+
+  // Over what may be lost, of the objective that gains most, beside the held one that leaves least.
+  double of(const Point& unit) const {
+    const Point at = model_coordinates(run_.search, unit);
+    double chance = 1;
+    for (const GaussianProcess& limit : limits_) {
+      const Prediction c = limit.predict(at);
+      chance *= c.sd > 0 ? normal_cdf(-c.mean / c.sd) : (c.mean <= 0 ? 1 : 0);
+    }
+    std::vector<double> there;
+    for (const GaussianProcess& objective : objectives_)
+      there.push_back(objective.predict(at).mean);
+    double least = kInfinity;
+    for (const Evaluation& h : held_) {
+      double most = 0;
+      for (std::size_t k = 0; k < there.size(); ++k) {
+        const double here = h.outcome.objectives[k];
+        most =
+            std::max(most, (here - there[k]) / tolerated_loss(run_.problem.objectives()[k], here));
+      }
+      least = std::min(least, most);
+    }
+    return chance * least;
+  }
+
+ private:
+  const Run& run_;
+  const std::vector<Evaluation>& held_;
+  std::vector<GaussianProcess> objectives_, limits_;
+};
+
+// A design on the edge of a constraint holds on fresh skins in half of all cases: where none of the
+// best does, the next safer one of the levels below is confirmed too. What then holds may be far
+// from the edge, and where nothing is left nothing does: the confirmation searches itself, by the
+// level below with its limits tightened, while that promises more than may be lost of a design, or
+// until it has confirmed as many as ever. Eq. search.13
 class SaferDesigns {
  public:
-  SaferDesigns(const Run& run, const JudgedDesigns& below)
-      : run_(run), below_(known_drafts(below.evaluations)) {}
+  SaferDesigns(const Run& run, const JudgedDesigns& below, const std::vector<std::size_t>& best)
+      : run_(run), below_(known_drafts(below.evaluations)) {
+    for (std::size_t i : best) best_.push_back(below.evaluations[i].unit);
+  }
 
   std::optional<Point> next() {
-    std::vector<Evaluation> confirmed;
-    bool held = false;
+    std::vector<Evaluation> confirmed, held;
     for (const FinalDesign& f : run_.result.finalists) {
-      held = held || f.feasible;
       confirmed.push_back(as_evaluation(run_.problem, f));
+      if (!f.feasible) continue;
+      if (std::find(best_.begin(), best_.end(), f.unit) != best_.end()) return std::nullopt;
+      held.push_back(confirmed.back());
     }
-    if ((held && !searching_) || confirmed.size() > kFinalists) return std::nullopt;
-    if (!searching_) {
-      if (const auto safer = next_safer(below_, confirmed)) return below_[*safer].unit;
+    if (confirmed.size() > kFinalists) return std::nullopt;
+    if (held.empty()) {
+      // Those of the search as the level between says of them.
+      const std::vector<Evaluation> all = tightened(run_.history.evaluations, below_);
+      if (const auto safer = next_safer(all, confirmed)) return all[*safer].unit;
     }
-    searching_ = true;
     SearchProblem problem = run_.search;
     problem.residuals = 0;
     problem.known_drafts = known_drafts(run_.history.evaluations);
     if (problem.objectives > 2 || problem.known_drafts.empty()) return std::nullopt;
     const auto searcher = make_searcher({"bayesian", ""}, problem);
-    searcher->tell(tightened(below_, confirmed));
+    const std::vector<Evaluation> known = tightened(below_, confirmed);
+    searcher->tell(known);
     const std::vector<Point> asked = searcher->ask();
-    if (asked.empty() || !run_.search.feasible_before_evaluation(asked.front()))
-      return std::nullopt;
-    return asked.front();
+    if (held.empty()) {
+      if (asked.empty() || !run_.search.feasible_before_evaluation(asked.front()))
+        return std::nullopt;
+      return asked.front();
+    }
+    return most_promising(asked, known, held);
   }
 
  private:
+  // Of what the search asks of and the ways from what held to what is known of the levels below the
+  // design that promises most, where that is more than may be lost.
+  std::optional<Point> most_promising(std::vector<Point> candidates,
+                                      const std::vector<Evaluation>& known,
+                                      const std::vector<Evaluation>& held) const {
+    constexpr int kSteps = 16;  // of a way
+    for (const Evaluation& h : held) {
+      for (const Evaluation& b : below_) {
+        for (int step = 1; step < kSteps; ++step) {
+          Point u = h.unit;
+          for (std::size_t k = 0; k < u.size(); ++k) u[k] += (b.unit[k] - u[k]) * step / kSteps;
+          candidates.push_back(run_.search.space.snapped(u));
+        }
+      }
+    }
+    const Promises promises(run_, known, held);
+    std::optional<Point> out;
+    double most = 1;
+    for (const Point& u : candidates) {
+      const bool confirmed = std::any_of(run_.result.finalists.begin(), run_.result.finalists.end(),
+                                         [&](const FinalDesign& f) { return f.unit == u; });
+      const double promise = promises.of(u);
+      if (confirmed || !(promise > most) || !run_.search.feasible_before_evaluation(u)) continue;
+      most = promise;
+      out = u;
+    }
+    return out;
+  }
+
   const Run& run_;
   std::vector<Evaluation> below_;
-  bool searching_ = false;
+  std::vector<Point> best_;
 };
 
 // The confirmed numbers decide the front and its order.
@@ -266,20 +386,28 @@ double confirm_budget(const Run& run) {
 void confirm(Run& run) {
   run.clock.enter(RunPart::Confirm);
   const JudgedDesigns& below = run.narrowed.size() < kFewNarrowed ? run.history : run.narrowed;
-  std::vector<Point> chosen = to_confirm(run, below);
-  SaferDesigns safer(run, below);
+  const std::vector<std::size_t> best = predicted_best(run, below);
+  std::vector<Point> chosen = to_confirm(run, below, best);
+  SaferDesigns safer(run, below, best);
   run.confirm_seconds = confirm_budget(run);
   run.result.confirmed_with = stage_fidelity(run.problem, Stage::Confirm, run.confirm_seconds);
   const bool done_before = run.replay.finished(Stage::Confirm);
   run.progress("confirm", 0, static_cast<int>(chosen.size()), run.seconds_from(RunPart::Confirm));
-  for (std::size_t done = 0; done < chosen.size(); ++done) {
+  const auto recorded = [&]() -> std::optional<Point> {
     const auto next = run.replay.next();
-    const bool recorded = next && next->stage == Stage::Confirm && !next->flat;
+    if (!next || next->stage != Stage::Confirm || next->flat) return std::nullopt;
+    return next->unit;
+  };
+  for (std::size_t done = 0; done < chosen.size(); ++done) {
+    const auto known = recorded();
     const bool fits = done == 0 || run.fits(run.seconds_of_designs(1, Stage::Confirm));
-    if (!recorded && (done_before || !fits)) break;
+    if (!known && (done_before || !fits)) break;
+    // A run that went on has confirmed these, whichever this version would choose.
+    if (known && done_before) chosen[done] = *known;
     run.result.finalists.push_back(finalist(run, chosen[done]));
     if (done + 1 == chosen.size()) {
-      if (const auto unit = safer.next()) chosen.push_back(*unit);
+      const auto known_more = done_before ? recorded() : std::nullopt;
+      if (const auto more = known_more ? known_more : safer.next()) chosen.push_back(*more);
     }
     run.progress("confirm", static_cast<int>(done + 1), static_cast<int>(chosen.size()),
                  run.seconds_of_designs(chosen.size() - done - 1, Stage::Confirm) +

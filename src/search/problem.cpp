@@ -58,15 +58,11 @@ StudyProblem::StudyProblem(const Study& study)
 }
 
 bool StudyProblem::driven() const {
-  return std::any_of(study_.variables.begin(), study_.variables.end(),
-                     [](const Variable& v) { return v.path.starts_with("drive."); }) ||
-         std::any_of(tasks_.begin(), tasks_.end(), [&](const StudyTask& t) {
-           return task_design(study_, study_.design, t).drive.driven();
-         });
+  return std::any_of(tasks_.begin(), tasks_.end(), [](const StudyTask& t) { return t.driven; });
 }
 
 Score StudyProblem::score(const Design& design, const std::vector<TaskAnswer>& answers) const {
-  Score out = score_of(scoring_, answers);
+  Score out = score_without_yield(answers);
   if (!out.ok || !goals_.yield) return out;
   const bool confirmed = !out.samples.empty();
   out.yield =
@@ -126,6 +122,13 @@ std::size_t StudyProblem::residuals() const {
   return squares ? nominal_tasks() * study_.design.environment.relative_humidity.size() : 0;
 }
 
+std::vector<double> StudyProblem::minimised(const Score& score) const {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < objectives().size(); ++k)
+    out.push_back(objectives()[k].maximise ? -score.values[k] : score.values[k]);
+  return out;
+}
+
 Outcome StudyProblem::outcome(const Score& score) const {
   Outcome out;
   out.ok = score.ok;
@@ -133,8 +136,7 @@ Outcome StudyProblem::outcome(const Score& score) const {
     out.reason = score.reason;
     return out;
   }
-  for (std::size_t k = 0; k < objectives().size(); ++k)
-    out.objectives.push_back(objectives()[k].maximise ? -score.values[k] : score.values[k]);
+  out.objectives = minimised(score);
   out.constraints = constraints_.violations(score);
   out.residuals = score.residuals;
   return out;

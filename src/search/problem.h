@@ -32,7 +32,7 @@ class StudyProblem {
   const StudyGoals& goals() const { return goals_; }
   const std::vector<StudyObjective>& objectives() const { return goals_.objectives; }
   const StudyConstraints& constraints() const { return constraints_; }
-  // Somewhere a voltage is applied: designs have a modulation.
+  // Somewhere a drive is applied or searched: designs have a modulation there.
   bool driven() const;
   // Of the designs that keep the limits on shapes: the smallest feature [m] that a search meets,
   // from a thousand of them; infinite where they have none.
@@ -49,6 +49,10 @@ class StudyProblem {
 
   // From one answer per task, of this design; with its yield where a limit is on that.
   Score score(const Design& design, const std::vector<TaskAnswer>& answers) const;
+  // Of which nobody asks whether it keeps the limits: yields draw thousands of plates.
+  Score score_without_yield(const std::vector<TaskAnswer>& answers) const {
+    return score_of(scoring_, answers);
+  }
   // Where numbers scatter and a limit may be broken by it; of a score that is ok.
   std::optional<Yield> yield(const Design& design, const Score& score) const;
   void add_steps(Score& score, const std::vector<TaskAnswer>& answers) const {
@@ -57,6 +61,7 @@ class StudyProblem {
 
   std::size_t residuals() const;              // of an outcome; 0: the objective is no target
   Outcome outcome(const Score& score) const;  // for the searcher: minimised
+  std::vector<double> minimised(const Score& score) const;  // its objectives, of one that is ok
   bool feasible(const Score& score, const Design& design) const;
 
   // Everything that decides the result, for the journal's key.

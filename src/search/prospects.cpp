@@ -33,18 +33,19 @@ double best_at(const MemberWorth& d, std::size_t member) {
   return std::isnan(kept) ? any : kept;
 }
 
-// What a design is worth where it has a worth; else the least of the others there.
+// What a design is worth where it has a worth; else the least of the others there, of which one
+// has a worth.
 double worth_or_least(const MemberWorth& d, std::size_t design, std::size_t member) {
   double out = d.worth[design][member];
   if (!std::isnan(out)) return out;
   for (const std::vector<double>& other : d.worth) out = std::fmin(out, other[member]);
-  return std::isnan(out) ? 0 : out;
+  return out;
 }
 
+// Of a member at which something is known.
 void add_member(const MemberWorth& d, std::size_t member, double weight,
                 std::vector<Prospect>& out) {
   const double best = best_at(d, member);
-  if (std::isnan(best)) return;  // nothing is known there: no design loses to another
   const bool any_keeps = [&] {
     for (std::size_t i = 0; i < out.size(); ++i) {
       if (d.keeps(i, member)) return true;
@@ -162,7 +163,13 @@ Reversal reversal(const MemberWorth& all, const BeliefRisk& risk, double p_limit
                   std::size_t over_all, const MemberGroup& group) {
   const MemberWorth there = of_members(all, group.members);
   const std::vector<Prospect> found = prospects(there, risk);
-  Reversal out{group.name, total(there.weights) / total(all.weights), chosen(found, p_limits), 0};
+  const double known = known_share(there);
+  Reversal out;
+  out.name = group.name;
+  out.weight = total(there.weights) / total(all.weights);
+  out.known = out.weight * known;
+  // Where nothing is known, nothing speaks for another design.
+  out.best = known > 0 ? chosen(found, p_limits) : over_all;
   out.loss = found[over_all].regret - found[out.best].regret;
   return out;
 }
@@ -180,8 +187,14 @@ BeliefRisk parse_belief_risk(const std::string& text) {
   }
 }
 
+bool MemberWorth::known(std::size_t member) const {
+  return std::any_of(worth.begin(), worth.end(), [member](const std::vector<double>& design) {
+    return !std::isnan(design[member]);
+  });
+}
+
 bool MemberWorth::keeps(std::size_t design, std::size_t member) const {
-  if (std::isnan(worth[design][member])) return false;
+  if (std::isnan(worth[design][member]) && known(member)) return false;
   return std::all_of(kept[design].begin(), kept[design].end(),
                      [member](const std::vector<bool>& of) { return of[member]; });
 }
@@ -300,22 +313,34 @@ std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& ri
   const MemberWorth d = over_skins(designs);
   std::vector<Prospect> out(d.worth.size());
   const double all = total(d.weights);
-  for (std::size_t m = 0; m < d.weights.size(); ++m) add_member(d, m, d.weights[m] / all, out);
+  // Those at which no design has an answer tell none from another.
+  std::vector<std::size_t> known;
+  std::vector<double> weights;
+  for (std::size_t m = 0; m < d.weights.size(); ++m) {
+    if (!d.known(m)) continue;
+    known.push_back(m);
+    weights.push_back(d.weights[m]);
+  }
+  const double of_known = total(weights);
+  for (const std::size_t m : known) add_member(d, m, d.weights[m] / of_known, out);
   for (std::size_t i = 0; i < out.size(); ++i) {
     Prospect& p = out[i];
     std::vector<double> worth;
+    for (const std::size_t m : known) worth.push_back(worth_or_least(d, i, m));
     p.p_limits = 0;
     p.p_limit.assign(d.kept[i].size(), 0);
     for (std::size_t m = 0; m < d.weights.size(); ++m) {
       const double w = d.weights[m] / all;
-      worth.push_back(worth_or_least(d, i, m));
       p.p_limits += d.keeps(i, m) ? w : 0;
       for (std::size_t k = 0; k < p.p_limit.size(); ++k) p.p_limit[k] += d.kept[i][k][m] ? w : 0;
     }
     // Weights sum to 1 but for their last digits.
     p.p_limits = std::min(1.0, p.p_limits);
     for (double& kept : p.p_limit) kept = std::min(1.0, kept);
-    p.merit = risk.regret ? -p.regret : apply_risk(risk.risk, true, worth, d.weights);
+    if (risk.regret)
+      p.merit = -p.regret;
+    else if (!worth.empty())
+      p.merit = apply_risk(risk.risk, true, worth, weights);
   }
   return out;
 }
@@ -349,6 +374,14 @@ double best_worth(const MemberWorth& designs) {
     weight += d.weights[m];
   }
   return weight > 0 ? sum / weight : 0;
+}
+
+double known_share(const MemberWorth& designs) {
+  const double all = total(designs.weights);
+  double known = 0;
+  for (std::size_t m = 0; m < designs.weights.size(); ++m)
+    known += designs.known(m) ? designs.weights[m] : 0;
+  return all > 0 ? known / all : 1;
 }
 
 std::size_t chosen(const std::vector<Prospect>& prospects, double p_limits) {
@@ -399,7 +432,7 @@ std::optional<HalvesReversal> by_half(const MemberWorth& designs, const BeliefRi
     const Reversal at_low = reversal(designs, risk, p_limits, over_all, low),
                    at_high = reversal(designs, risk, p_limits, over_all, high);
     if (at_low.best == over_all && at_high.best == over_all) continue;
-    const double loss = at_low.weight * at_low.loss + at_high.weight * at_high.loss;
+    const double loss = at_low.known * at_low.loss + at_high.known * at_high.loss;
     if (out && loss <= most) continue;
     most = loss;
     out = {number.path,

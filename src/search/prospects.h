@@ -32,7 +32,9 @@ struct MemberWorth {
   // share skins, so that much of it is common to them. Empty: worth is known as well as it is said.
   std::vector<std::vector<std::vector<double>>> by_skin{};
 
-  // No limit is broken there, and the design is worth something.
+  // Some design is worth something there.
+  bool known(std::size_t member) const;
+  // No limit is broken there, and the design is worth something if any is.
   bool keeps(std::size_t design, std::size_t member) const;
   // [skin] What each moves a design by on average over the members: the e_ik of Eq. lab.3.
   std::vector<double> moves_of_skins(std::size_t design) const;
@@ -54,6 +56,7 @@ void combine_levels(const std::vector<SkinnedWorth>& confirmed,
 // skin. How far is not known, which is a skin more. Eq. search.23
 void shrink_moves(const std::vector<SkinnedWorth>& own, bool in_proportion, MemberWorth& designs);
 
+// Over the members at which some design is worth something, but the limits: these over all.
 struct Prospect {
   double p_best = 0;              // Eq. search.15
   double regret = 0;              // expected, in the unit of the worth. Eq. search.16
@@ -70,8 +73,12 @@ struct SettledSkins {
 };
 SettledSkins settled_skins(const MemberWorth& designs, const BeliefRisk& risk, double p_limits);
 
-// What the best at each member, and draw of its skins, is worth on average.
+// What the best at each member, and draw of its skins, is worth on average over those that
+// prospects are of.
 double best_worth(const MemberWorth& designs);
+
+// The share of belief at which some design is worth something.
+double known_share(const MemberWorth& designs);
 
 // The highest merit of those that keep every limit with this probability; where none does, of
 // those that keep them with the highest; the first among equals.
@@ -94,6 +101,7 @@ struct Reversal {
   double weight = 0;     // of these members, of all 1
   std::size_t best = 0;  // the design that is chosen then
   double loss = 0;       // expected there of what is chosen over all, less that of `best`
+  double known = 0;      // of `weight`, that of the members that `loss` is the mean over
 };
 // Each group by itself.
 std::vector<Reversal> by_group(const MemberWorth& designs, const BeliefRisk& risk, double p_limits,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <set>
 
 #include "base/error.h"
 #include "base/watch.h"
@@ -105,6 +106,13 @@ bool Replay::finished(Stage stage, bool flat) const {
 bool Replay::has(Stage stage, bool flat) const {
   return std::any_of(requests_.begin(), requests_.end(),
                      [&](const TaskRequest& r) { return r.stage == stage && r.flat == flat; });
+}
+
+bool Replay::repeats() const {
+  std::set<Point> units;
+  return std::any_of(requests_.begin(), requests_.end(), [&](const TaskRequest& r) {
+    return r.stage == Stage::Search && !units.insert(r.unit).second;
+  });
 }
 
 const Bytes& Replay::replayed(const TaskRequest& request) {

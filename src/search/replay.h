@@ -44,6 +44,9 @@ class Replay {
   // without their relief.
   bool finished(Stage stage, bool flat = false) const;
   bool has(Stage stage, bool flat = false) const;  // a record of it
+  // The search of the earlier run judged a design as often as it was asked of, as versions did that
+  // kept no memory of it.
+  bool repeats() const;
 
   // Judgements of the search.
   std::vector<Judgement> searched(const std::vector<Point>& units);

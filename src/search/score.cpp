@@ -155,8 +155,10 @@ void add_extremes(Score& score, const Scoring& s, const std::vector<TaskAnswer>&
   if (s.law.size() > 0) score.by_task = all;
   if (s.goals.yield) all.resize(s.nominal);
   score.worst = kInfinity;
-  for (std::size_t t = 0; t < all.size(); ++t)
-    score.worst = std::min(score.worst, answers[t].worst);
+  for (std::size_t t = 0; t < all.size(); ++t) {
+    if (s.tasks[t].driven) score.worst = std::min(score.worst, answers[t].worst);
+  }
+  if (std::isinf(score.worst)) score.worst = 0;
   LimitedNumbers bad = bad_side(s, all);
   score.oxide_margin = bad.oxide_margin;
   score.looks = std::move(bad.looks);

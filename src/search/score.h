@@ -42,7 +42,7 @@ struct Score {
   std::vector<ErrorSamples> samples;
   std::vector<double> residuals;  // of targets: weighted distances, one per task and humidity
   // Over tasks; with a limit on the yield over those as designed:
-  double worst = 0;                     // the lowest modulation; 0: undriven
+  double worst = 0;                     // the lowest modulation of driven ones; 0: there is none
   double oxide_margin = 0;              // the smallest; infinite without a field
   std::vector<Look> looks;              // where the study asks for them: the worst counts
   std::vector<double> limited;          // the bad side of each constraint on a metric

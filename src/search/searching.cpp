@@ -1,6 +1,9 @@
 // The first stage of a run: the search itself.
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <memory>
+#include <set>
 
 #include "search/levels.h"
 #include "search/stages.h"
@@ -8,24 +11,28 @@
 namespace papilla::search {
 namespace {
 
+// So many times the budget of refused designs, or of known ones one after another, end a search.
+constexpr std::size_t kInVain = 10;
+
 class Searching {
  public:
   explicit Searching(Run& run)
       : run_(run),
         searcher_(make_searcher(run.method, run.search)),
         budget_(static_cast<std::size_t>(run.search.evaluations)),
-        begun_(run.clock.seconds()) {}
+        begun_(run.clock.seconds()),
+        judges_again_(run.replay.repeats()) {}
 
   void run() {
     SearchEnd& end = run_.result.end;
     end = SearchEnd::Budget;
     while (evaluated_ < budget_ && run_.replay.searching()) {
-      if (run_.history.size() >= 10 * budget_) {
+      if (run_.history.size() >= kInVain * budget_) {
         end = SearchEnd::Refusals;
         break;
       }
       const std::vector<Point> asked = searcher_->ask();
-      if (asked.empty()) {
+      if (asked.empty() || known_in_row_ >= kInVain * budget_) {
         end = SearchEnd::Exhausted;
         break;
       }
@@ -39,14 +46,14 @@ class Searching {
   }
 
  private:
-  // Cheap outcomes that steer. Few at a time, so that a kill loses little and Ctrl-C is heard.
+  // Cheap outcomes that steer. Few at a time, so that a kill loses little and Ctrl-C is heard; some
+  // of each round, however short the time.
   void draft(const std::vector<Point>& units) {
     std::vector<Evaluation> batch;
-    while (batch.size() < units.size()) {
-      // Some of each round, however short the time.
-      if (!batch.empty() && !next_is_draft()) break;
+    while (batch.size() < units.size() && (batch.empty() || next_is_draft(units[batch.size()]))) {
       const auto begin = units.begin() + static_cast<std::ptrdiff_t>(batch.size());
-      const std::size_t count = std::min(units.size() - batch.size(), 4 * run_.replay.workers());
+      const std::size_t most = run_.replay.replaying() ? 1 : 4 * run_.replay.workers();
+      const std::size_t count = std::min(units.size() - batch.size(), most);
       const std::vector<Point> some(begin, begin + static_cast<std::ptrdiff_t>(count));
       for (Evaluation& e : run_.replay.judged(some, Stage::Draft).evaluations)
         batch.push_back(std::move(e));
@@ -59,27 +66,48 @@ class Searching {
     searcher_->tell(batch);
   }
 
+  // What was judged before is not judged again: a method that asks of it is told what is known.
   // False where the time is over.
   bool evaluate(const std::vector<Point>& asked) {
-    std::vector<Evaluation> batch;
-    while (batch.size() < asked.size() && evaluated_ < budget_ && run_.replay.searching()) {
-      const std::vector<Point> units = next_of(asked, batch.size());
+    const std::vector<Point> fresh = not_known(asked);
+    known_in_row_ = fresh.empty() ? known_in_row_ + asked.size() : 0;
+    std::size_t done = 0;
+    while (done < fresh.size() && evaluated_ < budget_ && run_.replay.searching()) {
+      const std::vector<Point> units = next_of(fresh, done);
       if (units.empty()) return false;
       const std::vector<Judgement> judgements = run_.replay.searched(units);
       for (std::size_t i = 0; i < units.size(); ++i) {
         evaluated_ += run_.add_to_history(units[i], judgements[i]);
-        batch.push_back(run_.history.evaluations.back());
+        known_[units[i]] = run_.history.size() - 1;
       }
+      done += units.size();
       run_.progress("search", static_cast<int>(evaluated_), run_.search.evaluations,
                     seconds_left());
+    }
+    std::vector<Evaluation> batch;
+    for (const Point& unit : asked) {
+      const auto at = known_.find(unit);
+      if (at == known_.end()) break;  // the budget ended before it
+      batch.push_back(run_.history.evaluations[at->second]);
     }
     searcher_->tell(batch);
     return true;
   }
 
-  // A draft of the journal, or one that the clock allows: half of the search's time is for others.
-  bool next_is_draft() const {
-    if (run_.replay.replaying()) return run_.replay.next_unit(Stage::Draft).has_value();
+  // Each once. All of them where a run is continued whose version judged again what it knew.
+  std::vector<Point> not_known(const std::vector<Point>& asked) const {
+    if (judges_again_) return asked;
+    std::vector<Point> out;
+    std::set<Point> here;
+    std::copy_if(asked.begin(), asked.end(), std::back_inserter(out),
+                 [&](const Point& u) { return !known_.contains(u) && here.insert(u).second; });
+    return out;
+  }
+
+  // Whether a round of drafts goes on with this one: as the journal has it, where the clock may
+  // have cut the round, else as the clock allows. Half of the search's time is for others.
+  bool next_is_draft(const Point& unit) const {
+    if (run_.replay.replaying()) return run_.replay.next_unit(Stage::Draft) == unit;
     if (run_.options.finish) return false;
     return run_.fits(2 * run_.seconds_of_designs(run_.search.evaluations, Stage::Search));
   }
@@ -128,6 +156,9 @@ class Searching {
   std::size_t budget_, evaluated_ = 0;
   double begun_;  // [s] since the run began
   int drafts_ = 0;
+  std::map<Point, std::size_t> known_;  // place of a design in the history
+  std::size_t known_in_row_ = 0;        // asked of since the last design that was not known
+  bool judges_again_;
 };
 
 }  // namespace
@@ -141,7 +172,8 @@ void take_from_journal(Run& run) {
     run.add_to_history(before.evaluations[i].unit,
                        {before.evaluations[i].outcome, before.worst[i]});
   const bool all = run.result.evaluations >= run.search.evaluations;
-  const bool refused = run.history.size() >= 10 * static_cast<std::size_t>(run.search.evaluations);
+  const bool refused =
+      run.history.size() >= kInVain * static_cast<std::size_t>(run.search.evaluations);
   run.result.end = all                      ? SearchEnd::Budget
                    : refused                ? SearchEnd::Refusals
                    : run.replay.exhausted() ? SearchEnd::Exhausted

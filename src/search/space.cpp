@@ -22,6 +22,7 @@ DesignSpace::DesignSpace(const Study& study) : study_(study) {
     cube_.dimensions.push_back(d);
   }
   own_value_ = cube_.value(unit_of_study());
+  own_beside_.assign(cube_.size(), false);
   const std::vector<double> said = values_of_study();
   for (std::size_t i = 0; i < said.size(); ++i) {
     const Variable& v = study.variables[i];
@@ -29,6 +30,7 @@ DesignSpace::DesignSpace(const Study& study) : study_(study) {
     const bool fixed = v.choices.empty() ? v.high <= v.low : v.choices.size() == 1;
     if (fixed || std::abs(said[i] - own_value_[i]) <= kUnitsRound * scale) continue;
     own_value_[i] = said[i];
+    own_beside_[i] = true;
     surface_inside_ = surface_inside_ && v.path.starts_with("texture.");
   }
   cube_.collapse = [this](const Point& u) { return collapsed(u); };

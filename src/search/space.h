@@ -37,6 +37,7 @@ class DesignSpace {
   // What the study's file says of the variables, SI, inside the space or not. Of a number that its
   // space fixes that value; the middle of the range where its own design has no such number.
   const std::vector<double>& own_values() const { return own_value_; }
+  bool own_is_beside(std::size_t variable) const { return own_beside_[variable]; }  // the space
   // The point of the study's own finish and drive. Empty where they lie outside the space: value()
   // and design() of the empty point are of own_values().
   Point own_surface() const { return surface_inside_ ? unit_of_study() : Point{}; }
@@ -69,6 +70,7 @@ class DesignSpace {
   const Study& study_;
   Space cube_;
   std::vector<double> own_value_;      // of the study's own design
+  std::vector<bool> own_beside_;       // which of them lie outside the space
   bool surface_inside_ = true;         // what of it is not the texture's lies inside the space
   std::vector<std::string> sections_;  // of the variables
 };

@@ -40,16 +40,6 @@ StepSamples steps_of(const StudyObjective& o, const Response& response) {
   return model_samples(response, value).value_or(StepSamples{});
 }
 
-// The same surface without its relief. A lattice keeps a picometre of it, so that it is judged on
-// the patch and the skins of the lattice: the difference is the texture's, not that of other skins.
-Texture without_relief(const Design& textured) {
-  constexpr double kNone = 1e-12;  // [m]
-  Design flat = textured;
-  double* depth = roles(flat.texture).depth;
-  if (depth) *depth = std::min(*depth, kNone);
-  return depth || !facts(flat.texture).relief.present ? flat.texture : Texture{};
-}
-
 // What moves the finger leaves the pen: its own numbers have no errors stated.
 std::vector<StepSamples> steps_of(const StudyGoals& goals, const Response& response) {
   std::vector<StepSamples> out;
@@ -196,7 +186,7 @@ TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std:
   using Kind = TaskStatus::Kind;
   const StudyGoals& goals = problem.goals();
   const StudyTask& task = problem.tasks().at(index);
-  const Design d = task_design(problem.study(), design, task);
+  const Design d = task_design(problem.study(), design, task, work.flat);
   if (const auto wrong = design_problems(d); !wrong.empty())
     return TaskAnswer::refused(Kind::ShapeRefused,
                                wrong.front().path + ": " + wrong.front().message);
@@ -242,8 +232,8 @@ std::vector<TaskAnswer> member_answers(const StudyGoals& goals, const Scene& sce
 }  // namespace
 
 TaskAnswer evaluate_steps(const StudyProblem& problem, const Design& design, std::size_t task,
-                          const Fidelity& fidelity) {
-  const Design d = task_design(problem.study(), design, problem.tasks().at(task));
+                          const Fidelity& fidelity, bool flat) {
+  const Design d = task_design(problem.study(), design, problem.tasks().at(task), flat);
   Response response;
   if (problem.goals().looks) response.appearance = appearance_of(d);
   const Scene scene = scene_of(d);
@@ -263,12 +253,11 @@ Work work_function(const StudyProblem& problem, int threads, const ResponseText&
     PAPILLA_CHECK(request, "a request as it was encoded");
     Fidelity fidelity = stage_fidelity(problem, request->stage, request->most_seconds);
     fidelity.threads = threads;
-    Design design = problem.space().design(request->unit);
-    if (request->flat) design.texture = without_relief(design);
+    const Design design = problem.space().design(request->unit);
     switch (request->stage) {
       case Stage::Steps:
       case Stage::Belief:
-        return encode(evaluate_steps(problem, design, request->task, fidelity));
+        return encode(evaluate_steps(problem, design, request->task, fidelity, request->flat));
       case Stage::Stability:
         return encode(evaluate_variant(problem, design, request->task, fidelity));
       case Stage::Search:
@@ -282,7 +271,7 @@ Work work_function(const StudyProblem& problem, int threads, const ResponseText&
     }
     const bool confirmed = request->stage == Stage::Confirm || request->stage == Stage::Rounding;
     return encode(evaluate_task(problem, design, request->task,
-                                {fidelity, confirmed, text, request->most_seconds}));
+                                {fidelity, confirmed, text, request->most_seconds, request->flat}));
   };
 }
 

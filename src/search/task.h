@@ -22,6 +22,7 @@ struct TaskWork {
   bool confirmed = false;
   ResponseText text{};      // of a confirmed task; may be empty
   double most_seconds = 0;  // on the way to the target, as plans price it; 0: any
+  bool flat = false;        // the design without its relief
 };
 
 // What a design answers under its tasks' counterface and, where a goal is about it, under its pen.
@@ -50,7 +51,7 @@ TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std:
 // The steps of the parameters alone, for a task as designed whose finger has an `uncertainty`; of a
 // belief its answer at each member too. With [accuracy] parameters a confirmed task has the steps.
 TaskAnswer evaluate_steps(const StudyProblem& problem, const Design& design, std::size_t task,
-                          const Fidelity& fidelity);
+                          const Fidelity& fidelity, bool flat = false);
 
 // What a worker does: a request in, an answer out. Refers to the problem.
 Work work_function(const StudyProblem& problem, int threads, const ResponseText& text);

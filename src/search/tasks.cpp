@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "config/describe.h"
 #include "design/families.h"
@@ -31,6 +32,40 @@ void check_frequency(const Study& study, const std::vector<StudyTask>& tasks) {
   }
 }
 
+// What all scenarios set is the same for every design.
+void check_scenarios(const Study& study) {
+  const auto counts = std::count_if(study.scenarios.begin(), study.scenarios.end(),
+                                    [](const Scenario& s) { return s.weight > 0; });
+  for (const Variable& v : study.variables) {
+    const std::vector<std::string> setting = scenarios_setting(study, v.path);
+    if (setting.empty() || static_cast<std::ptrdiff_t>(setting.size()) < counts) continue;
+    throw InputError(fmt::format(
+        "scenarios: {} {} {}, which design_space varies, so that all designs are alike in it; "
+        "leave the variable out, or the setting of one scenario",
+        join_names(setting), setting.size() > 1 ? "set" : "sets", v.path));
+  }
+}
+
+// The study's own design under the largest drive that is searched.
+Design most_driven(const Study& study) {
+  std::vector<Setting> drive;
+  for (const Variable& v : study.variables) {
+    if (!v.path.starts_with("drive.")) continue;
+    const std::vector<double>& c = v.choices;
+    drive.push_back({v.path, c.empty() ? v.high : *std::max_element(c.begin(), c.end())});
+  }
+  return with_settings(study.design, drive);
+}
+
+// The same surface without its relief. A lattice keeps a picometre of it, so that it is judged on
+// the patch and the skins of the lattice: the difference is the texture's, not that of other skins.
+Texture without_relief(Texture texture) {
+  constexpr double kNone = 1e-12;  // [m]
+  double* depth = roles(texture).depth;
+  if (depth) *depth = std::min(*depth, kNone);
+  return depth || !facts(texture).relief.present ? texture : Texture{};
+}
+
 // A measure of a texture that is not there: nobody makes it, so that nobody misses it.
 bool has_no_relief(const Design& design, const std::string& path) {
   if (!path.starts_with("texture.")) return false;
@@ -53,11 +88,14 @@ std::vector<StudyTask> study_tasks(const Study& study) {
                                           : study.population;
   const std::vector<Scenario> scenarios =
       study.scenarios.empty() ? std::vector<Scenario>{Scenario{}} : study.scenarios;
+  const Design most = most_driven(study);
   for (const Scenario& scenario : scenarios) {
     if (scenario.weight <= 0) continue;  // it counts for nothing
+    const bool driven = with_settings(most, scenario.set).drive.driven();
     for (const Finger& finger : fingers) {
       tasks.push_back({scenario.name.empty() ? finger.name : finger.name + ", " + scenario.name,
                        scenario.weight, finger, scenario.set});
+      tasks.back().driven = driven;
     }
   }
   const std::size_t nominal = tasks.size();
@@ -73,6 +111,7 @@ std::vector<StudyTask> study_tasks(const Study& study) {
     }
   }
   if (tasks.empty()) throw InputError("scenarios: at least one weight above 0 is needed");
+  check_scenarios(study);
   check_frequency(study, tasks);
   return tasks;
 }
@@ -93,9 +132,10 @@ void put_finger(const Study& study, const Finger& finger, Design& design) {
 
 }  // namespace
 
-Design task_design(const Study& study, Design d, const StudyTask& task) {
+Design task_design(const Study& study, Design d, const StudyTask& task, bool flat) {
   if (!d.counterface.in_place()) put_finger(study, task.finger, d);
   d = with_settings(std::move(d), task.settings);  // a scenario may change the finger too
+  if (flat) d.texture = without_relief(std::move(d.texture));
   if (task.nominal()) return d;
   std::vector<double> deviation(study.scatter.size(), 0.0);
   deviation[static_cast<std::size_t>(task.scattered)] = task.sign;

@@ -18,18 +18,19 @@ struct StudyTask {
   std::vector<Setting> settings;  // of the scenario
   int scattered = -1;             // which of the study's scatter; -1: as designed
   int sign = 0;                   // -1, +1: the end
+  bool driven = true;             // some design of the study has a voltage or a current in it
 
   bool nominal() const { return scattered < 0; }
 };
 
 // Those as designed first, then of each of them every scatter low and high; none of a scenario
-// without weight. Throws InputError when no scenario has one, or when a searched drive.frequency is
-// felt by none.
+// without weight. Throws InputError when no scenario has one, when all of them set a number that is
+// searched, or when a searched drive.frequency is felt by none.
 std::vector<StudyTask> study_tasks(const Study& study);
 
 // The design of a task: finger, scenario, then the end of the scatter, within the range that the
-// number may have at all.
-Design task_design(const Study& study, Design design, const StudyTask& task);
+// number may have at all. flat: the surface without its relief, whatever the scenario makes of it.
+Design task_design(const Study& study, Design design, const StudyTask& task, bool flat = false);
 
 // Plates of a design: all numbers that scatter set together.
 class Plates {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <variant>
 
@@ -93,7 +94,10 @@ class PlateJudge {
         goals_(scoring.goals),
         quick_looks_(!constraints.in_look().empty()),
         plates_(study, design),
-        over_scatter_(scoring, score, !quick_looks_) {}
+        over_scatter_(scoring, score, !quick_looks_) {
+    if (!quick_looks_) return;
+    for (const Design& d : constraints.looked_at(design)) looked_at_.emplace_back(study, d);
+  }
 
   // scale: of each tolerance.
   Verdicts judge(const Deviations& deviations, const std::vector<double>& scale) {
@@ -103,7 +107,9 @@ class PlateJudge {
       for (std::size_t k = 0; k < u.size(); ++k) u[k] *= scale[k];
       const Design& plate = plates_.plate(u);
       if (design_problems(plate).empty()) {
-        add(plate, over_scatter_.at(u), out);
+        LimitedNumbers numbers = over_scatter_.at(u);
+        for (Plates& of : looked_at_) numbers.looks.push_back(appearance_of(of.plate(u)));
+        add(plate, numbers, out);
       } else {
         ++out.not_makeable;
         for (std::vector<char>* list : {&out.kept, &out.if_better, &out.if_worse})
@@ -114,9 +120,8 @@ class PlateJudge {
   }
 
  private:
-  void add(const Design& plate, LimitedNumbers numbers, Verdicts& out) const {
+  void add(const Design& plate, const LimitedNumbers& numbers, Verdicts& out) const {
     bool kept = true, better = true, worse = true;
-    if (quick_looks_) numbers.looks = {appearance_of(plate)};
     for (std::size_t i = 0; i < study_.constraints.size(); ++i) {
       const Constraint& limit = study_.constraints[i];
       if (std::holds_alternative<YieldLimit>(limit.on)) continue;
@@ -140,6 +145,7 @@ class PlateJudge {
   const StudyGoals& goals_;
   bool quick_looks_;
   Plates plates_;
+  std::deque<Plates> looked_at_;  // where looks are known without an evaluation: in each scenario
   LimitedOverScatter over_scatter_;
 };
 

@@ -27,7 +27,8 @@ class LabDesk {
   // results: the folder of a finished search, as SearchDesk::results() has it. Both throw
   // InputError where there is none, or where the desk is at work.
   void plan(const std::string& results, int touches);
-  // files: kept before. replace: readings take the place of those that they contradict.
+  // files: kept before. replace: readings take the place of those that they contradict, and of what
+  // the same file was told as before.
   void tell(const std::string& results, const std::vector<std::string>& files, bool replace);
   // A table or a record of a tribometer, kept under its name. Throws InputError.
   void keep(const std::string& results, const std::string& name, const std::string& bytes) const;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -366,6 +367,39 @@ TEST(StudyOfTheLibrary, SaysWhatMayChangeAndWhatIsWanted) {
   EXPECT_NEAR(made.number("texture.diameter"), 2e-6, 1e-15);
   EXPECT_EQ(refusal([] { papilla::Study::read("m3_samples/a3h350.toml"); }),
             "expected a study: it has no [design_space]");
+}
+
+// What the file says is the study's own, where its space leaves that out too; the rest is of the
+// space.
+TEST(StudyOfTheLibrary, HasItsOwnValuesBesideItsSpace) {
+  const papilla::Study study = papilla::Study::parse(
+      "schema_version = 1\nbase = \"m3_samples/a3h350.toml\"\n"
+      "surface.contact_angle = \"50 deg\"\n"
+      "[design_space]\n\"texture.type\" = { choice = [\"flat\", \"grating\"] }\n"
+      "\"texture.depth\" = [\"100 nm\", \"500 nm\"]\n"
+      "\"texture.diameter\" = { choice = [\"2 um\", \"4 um\"] }\n"
+      "\"surface.contact_angle\" = [\"70 deg\", \"80 deg\"]\n"
+      "[objective]\nmaximise = \"mean(modulation)\"\n[constraints]\nmin_wall = \"3.5 um\"\n");
+  const double degree = std::numbers::pi / 180;
+  std::vector<double> values = study.own_values();
+  ASSERT_EQ(values.size(), 4u);
+  EXPECT_NEAR(values[2], 3e-6, 1e-15);
+  EXPECT_NEAR(values[3], 50 * degree, 1e-12);
+  const papilla::Design own = study.design(values);
+  const auto kind = [](const papilla::Design& d) { return d.toml().find("type = \"hole_array\""); };
+  EXPECT_NE(kind(own), std::string::npos);
+  EXPECT_NEAR(own.number("texture.depth"), 350e-9, 1e-16);
+  EXPECT_NEAR(own.number("texture.diameter"), 3e-6, 1e-15);
+  EXPECT_NEAR(own.number("surface.contact_angle"), 50 * degree, 1e-12);
+  values[1] = 420e-9;
+  const papilla::Design deeper = study.design(values);
+  EXPECT_NE(kind(deeper), std::string::npos);
+  EXPECT_NEAR(deeper.number("texture.depth"), 420e-9, 1e-16);
+  EXPECT_NEAR(deeper.number("surface.contact_angle"), 50 * degree, 1e-12);
+  EXPECT_EQ(study.judge(values).reason, "min_wall 3 um is below 3.5 um");
+  values[3] = 51 * degree;
+  EXPECT_EQ(refusal([&] { study.design(values); }),
+            "surface.contact_angle: 0.890118 is outside 1.22173 to 1.39626");
 }
 
 TEST(StudyOfTheLibrary, TakesValuesOfItsSpaceAlone) {

@@ -92,7 +92,7 @@ TEST_F(FitBeliefSlow, HoldsATruthThatThePatchesWerePlantedWith) {
     const double deviation = std::sqrt(squares[k] - mean[k] * mean[k]);
     EXPECT_GT(deviation, 0.01) << k;
     EXPECT_LT(learnt, 0.06) << k;
-    EXPECT_LT(deviation, 0.13) << k;  // docs/measured/validation.md: too wide, never too narrow
+    EXPECT_LT(deviation, 0.15) << k;  // docs/measured/validation.md: too wide, never too narrow
   }
   // Members through the file, on the design of the fit and on another one. They run without the
   // correction for what so few pixels leave out, which moves with the modulus: their bars are wider

@@ -125,7 +125,7 @@ skins = 4
 }
 
 // What data do not determine at all: no finger file has more than 300 %.
-TEST_F(Calibrate, DeviationsEndWhereAFingerFileDoes) {
+TEST_F(Calibrate, DeviationsEndWhereAFingerFileDoesAndSaySo) {
   LeastSquaresFit fit;
   const auto add = [&](const char* name, double value, double se) {
     ParameterFit p;
@@ -136,12 +136,19 @@ TEST_F(Calibrate, DeviationsEndWhereAFingerFileDoes) {
   add("skin.layer_modulus", 1e7, 4e7);
   add("macro.shear_fall", 0, 0.1);
   fit.correlation = {1, 0.5, 0, 0.5, 1, 0, 0, 0, 1};
-  const std::vector<ParameterDeviation> rows = deviations(fit);
+  std::vector<std::string> notes;
+  const std::vector<ParameterDeviation> rows =
+      deviations(fit, [&](const std::string& note) { notes.push_back(note); });
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_NEAR(rows[0].deviation, 0.1, 1e-12);
   EXPECT_EQ(rows[1].deviation, 3);
   EXPECT_EQ(rows[1].correlation, std::vector<double>{0.5});
   EXPECT_EQ(rows[2].deviation, 3);
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_EQ(notes[0],
+            "skin.layer_modulus is not known: its standard error is 400 % of it; the finger's file "
+            "says 300 %, the most that it takes");
+  EXPECT_EQ(notes[1].rfind("macro.shear_fall is not known: ", 0), 0u);
 }
 
 TEST_F(Calibrate, MistakesOfTheFileAreToldTogether) {

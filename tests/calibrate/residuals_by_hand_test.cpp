@@ -300,6 +300,19 @@ TEST_F(FitByHand, AStoppedFitGoesOnToTheSameFinger) {
   EXPECT_EQ(unfinished(), 0);
 }
 
+// Answers that were kept of another map of the finger's skin are none.
+TEST_F(FitByHand, KeepsAnswersOfTheMapThatTheyWereMadeWith) {
+  Calibration c;
+  c.fit = {"M3"};
+  c.file = write("fit.toml", "title = \"of a map\"");
+  c.finger.skin.map = write("skin.gsf", "a");
+  const auto file = [&] { return Residuals(c, 1, folder_).kept().file(); };
+  const std::string first = file();
+  EXPECT_EQ(file(), first);
+  write("skin.gsf", "another");
+  EXPECT_NE(file(), first);
+}
+
 // At its bound a number has no deviation, and those after it no correlation with it.
 TEST_F(FitByHand, ANumberAtItsBoundIsNotUncertain) {
   Calibration c;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "base/constants.h"
@@ -31,27 +32,41 @@ Gap flat_gap(double h) {
   return gap_of([&](double, double) { return h; });
 }
 
-// 0 and 180 deg have no exact bridge (bridge.h): the slab alone, which neither gains by wetting nor
-// has a line, up to 2 V^(1/3), tried up to 1.3 times 1.
-TEST(DropBorders, WithoutAnExactBridgeTheSlabCounts) {
+// 0 and 180 deg have no bridge at any gap (bridge.h): drops are caps of 1 deg, and bridge only
+// where the gap is lower than these. What is there then is the slab, which neither gains by wetting
+// nor has a line.
+TEST(DropBorders, WhereNoGapHasABridgeOnlyCapsThatTouchBothSidesAreOne) {
   WaterProperties water;
   water.theta_skin = 0, water.theta_substrate = kPi;
-  const double size = 2e-7, volume = cube(size);
+  const double size = 2e-7, volume = cube(size), cap = cap_shape(0).height;
+  ASSERT_LT(cap, 0.1);
   const auto at = [&](double h) { return DropEnergy(flat_gap(h * size), water, 0.3e-9); };
-  for (const double h : {0.2, 0.9}) {
+  for (const double h : {1.001 * cap, 0.2, 0.9}) {
     DropEnergy energy = at(h);
     const Drop d = energy.placed(kUm, kUm, volume, 0, false);
-    EXPECT_TRUE(d.bridge) << h;
-    EXPECT_NEAR(d.energy, 0, 1e-10 * water.surface_tension * size * size);
-    EXPECT_NEAR(energy.force(d), 0, 1e-10 * water.surface_tension * size);
+    EXPECT_FALSE(d.bridge) << h;
+    EXPECT_EQ(d.side, DropletState::OnSkin);
+    EXPECT_EQ(energy.evaluations(), 0);
+    EXPECT_FALSE(energy.kept(kUm, kUm, volume, 0).bridge) << h;
   }
-  for (const auto& [h, asked] : {std::pair{1.299, 1}, {1.301, 0}}) {
-    DropEnergy energy = at(h);
-    energy.placed(kUm, kUm, volume, 0, false);
-    EXPECT_EQ(energy.evaluations(), asked) << h;
+  DropEnergy energy = at(0.999 * cap);
+  const Drop d = energy.placed(kUm, kUm, volume, 0, false);
+  EXPECT_TRUE(d.bridge);
+  EXPECT_NEAR(d.energy, 0, 1e-10 * water.surface_tension * size * size);
+  EXPECT_NEAR(energy.force(d), 0, 1e-10 * water.surface_tension * size);
+}
+
+TEST(DropBorders, WhereNoGapHasABridgeWaterSettlesWithoutOne) {
+  for (const auto& [skin, substrate] :
+       {std::pair{0.0, 180.0}, {180.0, 0.0}, {0.5, 179.5}, {1.0, 179.0}}) {
+    WaterProperties water;
+    water.theta_skin = skin * kDegree, water.theta_substrate = substrate * kDegree;
+    const Wetting w = settle_droplets(flat_gap(100e-9), 1e-18, water, {}, 1, 0);
+    EXPECT_EQ(w.status, WettingStatus::Discs) << skin;
+    EXPECT_EQ(w.bridges, 0) << skin;
+    EXPECT_EQ(w.bridge_volume, 0) << skin;
+    EXPECT_EQ(w.retention, 0) << skin;
   }
-  EXPECT_TRUE(at(1.999).kept(kUm, kUm, volume, 0).bridge);
-  EXPECT_FALSE(at(2.001).kept(kUm, kUm, volume, 0).bridge);
 }
 
 // On a needle of the skin a cap must bridge though its mean gap is beyond the rupture: no flat

@@ -226,10 +226,10 @@ TEST(DropEnergyClosedForms, ACapHasItsShapeOnTheSideOfLowerAngle) {
     EXPECT_EQ(d.edge_slope, 0);
     EXPECT_NEAR(d.energy, 0.06 * cap.energy * 4e-14, 1e-12 * d.energy);
     EXPECT_EQ(energy.evaluations(), 0);
-    EXPECT_EQ(energy.cap_state(),
-              skin < substrate ? DropletState::OnSkin : DropletState::OnSubstrate);
-    EXPECT_EQ(energy.cap().height, cap.height);
-    EXPECT_EQ(energy.cap().energy, cap.energy);
+    EXPECT_EQ(d.side, skin < substrate ? DropletState::OnSkin : DropletState::OnSubstrate);
+    EXPECT_EQ(energy.cap_state(), d.side);
+    EXPECT_NEAR(d.footprint, cap.footprint * 2e-7, 1e-18);
+    EXPECT_NEAR(d.height, cap.height * 2e-7, 1e-18);
   }
 }
 

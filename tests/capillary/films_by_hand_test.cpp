@@ -100,15 +100,24 @@ TEST(FilmsByHand, ThresholdWaterOfAnyVolumeWetsItsPixels) {
   }
 }
 
-TEST(FilmsByHand, ThresholdWaterInAFlatGapHasNoLine) {
+// Of equal gaps the first pixels are wet, as many as the water fills, with a line around them.
+TEST(FilmsByHand, ThresholdWaterOfEqualGapsTakesTheFirst) {
   const Gap gap = gap_of(kEight, std::vector<double>(8, 100));
   const double all = 100 * kNm * 12 * kUm * kUm;
-  const Wetting w = fill_threshold(gap, 0.25 * all, water());
+  const Wetting w = fill_threshold(gap, 0.22 * all, water());
   EXPECT_EQ(w.status, WettingStatus::Film);
-  EXPECT_NEAR(w.wetted_fraction, 0.25, 1e-12);
+  EXPECT_NEAR(w.wetted_fraction, 0.22, 1e-12);
+  EXPECT_EQ(w.bridged, (std::vector<std::uint8_t>{1, 1, 0, 0, 0, 0, 0, 0}));
   EXPECT_EQ(w.bridges, 1);
-  expect_measured(w.capillary_force, force_of(3 * kUm * kUm, 100 * kNm, 0));
-  EXPECT_EQ(w.retention, 0);
+  // Half-way to the pixels around: two sides of a pixel's width and four corners.
+  const double line = (2 + 4 * std::hypot(0.5, 0.75)) * kUm;
+  expect_measured(w.capillary_force, force_of(0.22 * 12 * kUm * kUm, 100 * kNm, line));
+  expect_measured(w.retention, retention_of(line));
+  // Some of the gaps are equal: 10 nm, 20 nm and half of the next 20 nm.
+  const Gap some = gap_of(kEight, {20, 10, 50, 20, 60, 20, 70, 80});
+  const Wetting half = fill_threshold(some, 40 * kNm * 1.5 * kUm * kUm, water());
+  EXPECT_NEAR(half.wetted_fraction, 2.5 / 8, 1e-9);
+  EXPECT_EQ(half.bridged, (std::vector<std::uint8_t>{1, 1, 0, 1, 0, 0, 0, 0}));
 }
 
 TEST(FilmsByHand, ThresholdWaterBeyondAllGapsFloodsAndNoneIsDry) {

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "base/constants.h"
 #include "physics/capillary/droplets.h"
@@ -177,6 +179,28 @@ TEST(Rims, DropsAtTheFootOfAWallCreepAwayBelow45Degrees) {
               options.rims->capacity(options.rims->holes()[0], water.theta_substrate));
     EXPECT_EQ(rewet(w, gap, water, options).wicked_volume, w.wicked_volume);
   }
+}
+
+TEST(Rims, WaterThatIsAllInCornersBridgesNothingWhenTheDriveLowersItsAngle) {
+  const Heightmap texture = holed(5e-6, 600e-9);
+  DropletOptions options;
+  options.rims = std::make_shared<RimMap>(texture);
+  options.corner_wicking = true;
+  WaterProperties water, driven;
+  water.theta_substrate = 25 * kDegree;
+  driven.theta_substrate = 15 * kDegree;
+  const DropletSeed at_the_wall{kPatch / 2 + 2.4e-6, kPatch / 2, 1e-21};
+  const Wetting w = settle_droplets(gap_over(texture, 300e-9), {at_the_wall}, water, options);
+  ASSERT_EQ(w.wicked_volume, w.volume);
+  ASSERT_TRUE(w.droplets.empty());
+  const Wetting on = rewet(w, gap_over(texture, 250e-9), driven, options);
+  EXPECT_EQ(on.status, WettingStatus::Discs);
+  EXPECT_EQ(on.bridges, 0);
+  EXPECT_EQ(on.capillary_force, 0);
+  EXPECT_EQ(on.bridge_volume, 0);
+  EXPECT_EQ(on.bridged, std::vector<std::uint8_t>(texture.grid.size(), 0));
+  EXPECT_EQ(on.wicked_volume, w.volume);
+  EXPECT_EQ(on.volume, w.volume);
 }
 
 }  // namespace

@@ -50,8 +50,10 @@ TEST(WaterLaws, DropletsAreThoseOfTheTheoryPage) {
 
 TEST(WaterLaws, WhatIsNotYetKnownIsNothing) {
   const Drop d;
-  for (const double v : {d.x, d.y, d.volume, d.radius, d.edge_gap, d.edge_slope, d.energy, d.film})
+  for (const double v : {d.x, d.y, d.volume, d.radius, d.edge_gap, d.edge_slope, d.energy, d.film,
+                         d.footprint, d.height})
     EXPECT_EQ(v, 0);
+  EXPECT_EQ(d.side, DropletState::OnSubstrate);
   EXPECT_TRUE(d.alive && !d.bridge);
   const Film f;
   EXPECT_EQ(f.height + f.area + f.force + f.retention + f.regions, 0);

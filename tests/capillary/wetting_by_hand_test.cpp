@@ -289,6 +289,10 @@ TEST(WettingByHand, WhatAFilmOnItsWayTakesInCountsAsItsDiscByTheRest) {
   const std::vector<Drop> before = t.drops;
   const Wetting w = t.wetting(options);
   ASSERT_EQ(w.droplets[1].film, 1);
+  const double joined = t.energy.force(before[1]);
+  EXPECT_NEAR(w.droplets[1].force, (1 - share) * joined, 1e-9 * joined);
+  EXPECT_NEAR(capillary_traction(w, t.gap, {}).mean() * kPatch.area(), w.capillary_force,
+              1e-10 * w.capillary_force);
   // Grown anew: seeds at the lowest level inside the disc; the two small drops are met on the way.
   const FilmSource source{before[0].x,        before[0].y,      before[0].radius,
                           before[0].edge_gap, before[0].volume, share};
@@ -416,6 +420,8 @@ TEST(WettingByHand, RewettingKeepsPlacesAndVolumesAndFloatingShapes) {
   EXPECT_EQ(on.droplets[1].y, 4 * kUm);
   EXPECT_EQ(on.droplets[1].volume, w.droplets[1].volume);
   EXPECT_EQ(on.droplets[1].energy, w.droplets[1].energy);
+  EXPECT_EQ(on.droplets[1].radius, w.droplets[1].radius);
+  EXPECT_EQ(on.droplets[1].height, w.droplets[1].height);
   // A skin that comes down to the height of the cap is touched by it.
   const double height = w.droplets[1].height;
   EXPECT_EQ(rewet(w, flat_gap(0.999 * height), {}).droplets[1].state, DropletState::Bridge);
@@ -435,6 +441,37 @@ TEST(WettingByHand, RewettingKeepsPlacesAndVolumesAndFloatingShapes) {
   EXPECT_EQ(rewet(film, flat_gap(70e-9), {}).droplets.size(), 2u);
 }
 
+// The side of the lower angle is where a cap was laid down, not where one would be laid now.
+TEST(WettingByHand, RewettingLeavesACapOnItsSide) {
+  WaterProperties rest, driven;  // 80 deg on the skin
+  rest.theta_substrate = 90 * kPi / 180;
+  driven.theta_substrate = 68 * kPi / 180;
+  const Wetting off =
+      settle_droplets(flat_gap(), {{8 * kUm, 4 * kUm, cube(60e-9)}}, rest, at_rest());
+  ASSERT_EQ(off.droplets.at(0).state, DropletState::OnSkin);
+  const Droplet on = rewet(off, flat_gap(), driven).droplets.at(0);
+  EXPECT_EQ(on.state, DropletState::OnSkin);
+  EXPECT_EQ(on.radius, off.droplets[0].radius);
+  EXPECT_EQ(on.height, off.droplets[0].height);
+}
+
+// Caps of more than 90 deg are wider than their feet.
+TEST(WettingByHand, RewettingMergesCapsWhereTheyAreWidest) {
+  WaterProperties water;
+  water.theta_skin = water.theta_substrate = 110 * kPi / 180;
+  const double size = 60e-9;
+  const CapShape cap = cap_shape(water.theta_skin);
+  Wetting w =
+      settle_droplets(flat_gap(), {{4 * kUm, 4 * kUm, cube(size)}, {8 * kUm, 4 * kUm, cube(size)}},
+                      water, at_rest());
+  ASSERT_EQ(w.droplets.size(), 2u);
+  ASSERT_NE(w.droplets[0].state, DropletState::Bridge);
+  w.droplets[1].x = w.droplets[0].x + 2.001 * size * cap.widest;
+  EXPECT_EQ(rewet(w, flat_gap(), water).droplets.size(), 2u);
+  w.droplets[1].x = w.droplets[0].x + size * (cap.footprint + cap.widest);
+  EXPECT_EQ(rewet(w, flat_gap(), water).droplets.size(), 1u);
+}
+
 TEST(WettingByHand, ThresholdWaterIsFilledAnew) {
   const Wetting w = fill_threshold(flat_gap(), 0.3 * kGap * kPatch.area(), {});
   const Wetting on = rewet(w, flat_gap(50e-9), {});
@@ -447,7 +484,6 @@ TEST(WettingByHand, ThresholdWaterIsFilledAnew) {
 TEST(WettingByHand, TractionIsTheForceOverThePixelsOfEachBridge) {
   Wetting w;
   w.grid = Grid{4, 3, 8, 9};
-  w.capillary_force = 100;
   w.droplets.resize(5);
   for (Droplet& d : w.droplets) d.state = DropletState::Bridge;
   w.droplets[0] = {.x = 1,
@@ -458,28 +494,94 @@ TEST(WettingByHand, TractionIsTheForceOverThePixelsOfEachBridge) {
   w.droplets[1] = {
       .x = 5.5, .y = 4.5, .state = DropletState::Bridge, .radius = 0.1, .force = -6};  // none: 6
   w.droplets[2] = {.x = 1, .y = 7.5, .state = DropletState::OnSubstrate, .radius = 1, .force = 50};
+  // What of a bridge on its way to a film is still a disc: pixel 8.
   w.droplets[3] = {
-      .x = 1, .y = 7.5, .state = DropletState::Bridge, .radius = 1, .force = 50, .film = 0.1};
+      .x = 1, .y = 7.5, .state = DropletState::Bridge, .radius = 1, .force = 12, .film = 0.1};
   w.droplets[4] = {
       .x = 3, .y = 1.5, .state = DropletState::Bridge, .radius = 1, .force = 4};  // pixel 1
   const Gap gap{w.grid, std::vector<double>(12, 1)};
-  // Pixels of 2 x 3: 18 / (3 x 6) each, -6 / 6, 4 / 6 more.
+  // Pixels of 2 x 3: 18 / (3 x 6) each, -6 / 6, 12 / 6, 4 / 6 more.
   std::vector<double> want(12, 0);
   want[3] = want[0] = want[1] = 1;
   want[6] = -1;
+  want[8] = 2;
   want[1] += 4.0 / 6;
   const Traction discs = capillary_traction(w, gap, {});
   ASSERT_EQ(discs.value.size(), 12u);
   EXPECT_TRUE(discs.grid == w.grid);
   for (std::size_t k = 0; k < 12; ++k) EXPECT_NEAR(discs.value[k], want[k], 1e-12) << k;
-  // The film has the rest, 100 - 18 + 6 - 4 = 84 over two pixels of 6.
-  w.film.assign(12, FilmPixel::None);
-  w.film[1] = FilmPixel::Film;
-  w.film[8] = FilmPixel::OnItsWay;
+  // The regions of a film, each with a pressure of its own.
+  w.film_region = {0, 1, 0, 0, 0, 0, 0, 0, 2, 2, 0, 0};
+  w.film_pressure = {7, -3};
   const Traction all = capillary_traction(w, gap, {});
   want[1] += 7;
-  want[8] += 7;
+  want[8] -= 3;
+  want[9] -= 3;
   for (std::size_t k = 0; k < 12; ++k) EXPECT_NEAR(all.value[k], want[k], 1e-12) << k;
+}
+
+// Where the hand-over to a film begins, each bridge still pulls where it did: no pixel steps.
+TEST(WettingByHand, BridgesThatBeginToBeFilmPullOnTheirOwnPixels) {
+  Gap gap = flat_gap();  // 60 nm on the right
+  for (std::size_t k = 0; k < kPatch.size(); ++k) gap.value[k] = k % 120 < 60 ? kGap : 0.6 * kGap;
+  const auto wetting = [&](double film_width) {
+    Settled s(gap);
+    s.add(3, 4, disc(1 * kUm));
+    s.add(9, 4, 0.6 * disc(1 * kUm));
+    DropletOptions options;
+    options.film_width = film_width;
+    return s.wetting(options);
+  };
+  const Wetting discs = wetting(50 * kUm);
+  const double t = 5.7746e-4;  // t^2 (3 - 2 t) = 1e-6
+  const Wetting films = wetting(2 * kUm / (0.8 + 0.45 * t));
+  ASSERT_EQ(discs.status, WettingStatus::Discs);
+  ASSERT_EQ(films.status, WettingStatus::Film);
+  for (const Droplet& d : films.droplets) ASSERT_NEAR(d.film, 1e-6, 1e-8);
+  const Traction before = capillary_traction(discs, gap, {});
+  const Traction after = capillary_traction(films, gap, {});
+  const double left = before.value[kPatch.index(30, 40)],
+               right = before.value[kPatch.index(90, 40)];
+  ASSERT_GT(right, 1.3 * left);
+  for (std::size_t k = 0; k < kPatch.size(); ++k)
+    ASSERT_NEAR(after.value[k], before.value[k], 1e-4 * left) << k;
+  EXPECT_NEAR(after.mean() * kPatch.area(), films.capillary_force, 1e-10 * films.capillary_force);
+}
+
+TEST(WettingByHand, EachRegionOfAFilmPullsOnItsOwnPixels) {
+  // Two bowls, of 100 nm on the left and of 60 nm on the right.
+  Gap gap = flat_gap();
+  for (std::size_t k = 0; k < kPatch.size(); ++k) {
+    const bool left = k % 120 < 60;
+    gap.value[k] = (left ? kGap : 0.6 * kGap) +
+                   2e4 * square_distance(kPatch, k, (left ? 3 : 9) * kUm, 4 * kUm);
+  }
+  DropletOptions options;
+  options.film_width = 1 * kUm;
+  const auto wetting = [&](bool left, bool right) {
+    Settled s(gap);
+    if (left) s.add(3, 4, disc(1 * kUm));
+    if (right) s.add(9, 4, disc(1 * kUm));
+    return s.wetting(options);
+  };
+  const Wetting both = wetting(true, true);
+  for (const Droplet& d : both.droplets) ASSERT_EQ(d.film, 1);
+  ASSERT_EQ(both.bridges, 2);
+  const Traction t = capillary_traction(both, gap, {});
+  for (const bool left : {true, false}) {
+    const double force = wetting(left, !left).capillary_force;
+    const auto here = [&](std::size_t k) { return (k % 120 < 60) == left; };
+    double pixels = 0;
+    for (std::size_t k = 0; k < kPatch.size(); ++k)
+      pixels += here(k) && both.film[k] != FilmPixel::None;
+    const double pressure = force / (pixels * kPatch.pixel_area());
+    for (std::size_t k = 0; k < kPatch.size(); ++k) {
+      if (!here(k)) continue;
+      const double want = both.film[k] != FilmPixel::None ? pressure : 0;
+      ASSERT_NEAR(t.value[k], want, 1e-9 * pressure) << k;
+    }
+  }
+  EXPECT_NEAR(t.mean() * kPatch.area(), both.capillary_force, 1e-10 * both.capillary_force);
 }
 
 }  // namespace

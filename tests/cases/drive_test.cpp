@@ -195,6 +195,24 @@ TEST(DriveFile, ARecordedSineIsTheSine) {
   EXPECT_THROW(read_drive_case(kFingertip, recorded), InputError);
 }
 
+// A recording replaces the tones of the case: nothing is modulated, and no line is wanted.
+TEST(DriveFile, ARecordingHasNoTonesAndNoDistortion) {
+  std::string csv = "time_us,current_mA\n";
+  for (int i = 0; i < 64; ++i)
+    csv += fmt::format("{:.9g},{:.9g}\n", 40 * i / 64.0, 4 * std::sin(2 * kPi * i / 64.0));
+  const std::string path = temporary("recorded_carrier.csv");
+  write_bytes(path, csv);
+  const DriveCase c = read_drive_case(kFingertip, {"source.file=" + path});
+  ASSERT_EQ(c.drive.waveform, Waveform::Am);
+  const DriveResult r = solve_drive(c);
+  EXPECT_TRUE(r.modulation.frequency.empty());
+  EXPECT_EQ(r.distortion, 0);
+  EXPECT_EQ(drive_text(c, r).find("distortion"), std::string::npos);
+  EXPECT_NEAR(r.series.mean_force, r.carrier.mean_force, 1e-3 * r.carrier.mean_force);
+  const DriveCase tones = read_drive_case(kFingertip);
+  EXPECT_NE(drive_text(tones, solve_drive(tones)).find("distortion"), std::string::npos);
+}
+
 TEST(DriveFile, AChirpPullsAsItsFrequenciesDo) {
   const std::vector<std::string> sine{"drive.control=voltage", "drive.waveform=sine",
                                       "drive.amplitude=100 V", "drive.frequency=100 Hz",

@@ -66,7 +66,7 @@ void expect_point(const MeanFieldPoint& p, const MeanField& field, double voltag
   near(p.on.pull.pressure, on.pull.pressure);
   near(p.area_off, field.area(load / 50e-6));
   near(p.capacitance, kVacuumPermittivity * 50e-6 *
-                          field.gaps(std::max(on.pull.pressure, 9e3)).inverse(std::abs(h0)));
+                          std::abs(field.gaps(std::max(on.pull.pressure, 9e3)).inverse(h0)));
 }
 
 TEST(MeanFieldByHand, EveryPointIsThatOfItsVoltageLoadAndFrequency) {
@@ -166,7 +166,7 @@ TEST(MeanFieldByHand, CurvesAreThoseOfThePoint) {
     near(curves.stress[k].gap, gap);
     // eps0 V^2 / 2 over the square of gap and layers, V the root mean square.
     near(curves.stress[k].stress,
-         0.5 * kVacuumPermittivity * 3200 / square(gap + std::abs(own_thickness(2e3))));
+         0.5 * kVacuumPermittivity * 3200 / std::norm(gap + own_thickness(2e3)));
   }
   // From a thousandth of the slowest time, that of contact, to a hundred of it.
   const StepResponse step{0.5e-6, 150e-6, SkinDielectric{}.permittivity_at(2e3),
@@ -234,10 +234,64 @@ TEST(MeanFieldByHand, MistakesOfAFileAreToldUnderTheirKeys) {
   EXPECT_EQ(refused({"touch.finite_size_pressure=0 Pa", loads[1]}), "");
   EXPECT_EQ(refused({"touch.finite_size_pressure=0 Pa", loads[1], "touch.load=0 N"}), infinite);
   EXPECT_EQ(refused({"touch.load=0 N", loads[0]}), "");
-  // 0.5 N on 100 mm2 are 5 kPa.
-  EXPECT_EQ(refused({"skin.hardness=4.9 kPa"}),
+  // 0.5 N on 100 mm2 are 5 kPa; below 10 kPa the gaps, and with them the flattening, are held.
+  const std::string alone = "sweep.load=[\"0.5 N\"]", smaller = "touch.finite_size_pressure=1 kPa";
+  const std::string swept = "sweep.load: a nominal pressure of the sweep reaches the hardness\n";
+  EXPECT_EQ(refused({"skin.hardness=4.9 kPa", smaller, "sweep.load=[]"}),
             "skin.hardness: the nominal pressure reaches the hardness\n");
-  EXPECT_EQ(refused({"skin.hardness=5.1 kPa"}), "");
+  EXPECT_EQ(refused({"skin.hardness=5.1 kPa", smaller, alone}), "");
+  for (const char* hardness : {"8 kPa", "10 kPa"})
+    EXPECT_EQ(refused({std::string("skin.hardness=") + hardness, alone}),
+              "skin.hardness: touch.finite_size_pressure reaches the hardness\n");
+  EXPECT_EQ(refused({"skin.hardness=10.1 kPa", alone}), "");
+  EXPECT_EQ(refused({"skin.hardness=19.9 kPa"}), swept);  // 2 N are 20 kPa
+  EXPECT_EQ(refused({"skin.hardness=20.1 kPa"}), "");
+}
+
+// A voltage across nothing but the contact has no finite pull.
+TEST(MeanFieldByHand, AVoltageWithoutALayerIsRefused) {
+  const std::string bare =
+      "interface.dielectric: no layer holds the voltage where the surfaces touch (at 0 Hz a lossy "
+      "skin holds none): give a dielectric, or no voltage\n";
+  const std::string none = "interface.dielectric=[]", lossless = "interface.lossy_skin=false",
+                    constant = "drive.waveform=dc", off = "drive.amplitude=0 V";
+  EXPECT_EQ(refused({none}), "");  // the skin is left
+  EXPECT_EQ(refused({none, constant}), bare);
+  EXPECT_EQ(refused({none, "skin.thickness=0 um"}), bare);
+  EXPECT_EQ(refused({none, lossless}), bare);
+  EXPECT_EQ(refused({none, lossless, "interface.skin_equivalent=1e-160 nm"}), bare);
+  EXPECT_EQ(refused({none, lossless, "interface.skin_equivalent=40 nm"}), "");
+  EXPECT_EQ(refused({lossless, "interface.dielectric.0.thickness=0 nm"}), bare);
+  EXPECT_EQ(refused({none, lossless, off}), bare);  // the sweep's voltages
+  EXPECT_EQ(refused({none, "sweep.frequency=[\"1 kHz\",\"0 Hz\"]"}), bare);
+  EXPECT_EQ(refused({none, "sweep.frequency=[\"1 kHz\",\"0 Hz\"]", off}), "");
+  EXPECT_EQ(refused({none, constant, "interface.gap_resistivity=1e6 ohm m"}), "");
+  // Without a voltage it is a contact without a capacitance.
+  const MeanFieldPoint p =
+      solve_mean_field(read_mean_field(kWrist, {none, lossless, off, "sweep.voltage=[]"})).point;
+  EXPECT_GT(p.on.friction, 0);
+  EXPECT_EQ(p.capacitance, 0);
+}
+
+// Nothing holds the voltage in the end where the skin alone is in series.
+TEST(MeanFieldByHand, AStepWithoutADielectricIsLeftOut) {
+  MeanFieldCase c = own_case();
+  c.sweep = {};
+  c.interface.dielectric.clear();
+  const MeanFieldCurves curves = mean_field_curves(c);
+  EXPECT_TRUE(curves.step.empty());
+  ASSERT_EQ(curves.stress.size(), 121u);
+  for (const StressPoint& at : curves.stress) {
+    EXPECT_TRUE(std::isfinite(at.stress) && std::isfinite(at.density)) << at.gap;
+  }
+}
+
+TEST(MeanFieldByHand, ASkinThatYieldsAtEveryScaleIsRefused) {
+  const MeanFieldCase c =
+      read_mean_field(kWrist, {"skin.modulus=1e7 MPa", "skin.hardness=20.1 kPa"});
+  EXPECT_EQ(keyed_refusal_of([&] { solve_mean_field(c); }),
+            "skin.hardness: the skin yields at every scale of its roughness: take more, or a lower "
+            "modulus\n");
 }
 
 TEST(MeanFieldByHand, ACaseThatSaysNothingIsTheWristOfThePaper) {

@@ -2,7 +2,11 @@
 // solver alone; what is refused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
 
 #include "base/constants.h"
 #include "base/error.h"
@@ -67,6 +71,73 @@ TEST(ContactStatistics, AreTheSameForAnyNumberOfThreads) {
   const StatisticsCase c = small({"press.pressure=[\"4 MPa\"]"});
   EXPECT_EQ(statistics_json(c, solve_statistics(c, 1), 0),
             statistics_json(c, solve_statistics(c, 2), 0));
+}
+
+// One seed does not tell how seeds differ, and no controls what the grid changes: null and words.
+TEST(ContactStatistics, SayWhatWasNotMeasured) {
+  const auto solved = [](int seeds, int controls) {
+    const StatisticsCase c =
+        small({"press.pressure=[\"4 MPa\"]", "sampling.grid=64", "roughness.cutoff=1e5 1/m",
+               "sampling.seeds=" + std::to_string(seeds),
+               "sampling.controls=" + std::to_string(controls)});
+    return std::pair(c, solve_statistics(c, 1));
+  };
+  const auto [neither_case, neither] = solved(1, 0);
+  EXPECT_FALSE(neither.points.at(0).area.seeds);
+  EXPECT_FALSE(neither.points.at(0).area.grid);
+  EXPECT_FALSE(neither.points.at(0).area.error());
+  const std::string text = statistics_text(neither_case, neither, 0);
+  EXPECT_NE(text.find("±: neither how surfaces differ nor what the grid changes was measured"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("± unknown"), std::string::npos) << text;
+  EXPECT_EQ(text.find("± 0"), std::string::npos) << text;
+  const auto json = nlohmann::json::parse(statistics_json(neither_case, neither, 0));
+  const auto& area = json["points"][0]["area_fraction"];
+  EXPECT_GT(area["value"], 0);
+  EXPECT_TRUE(area["error"].is_null() && area["seeds"].is_null() && area["grid"].is_null());
+  const std::string gaps = gap_distribution_csv(neither);
+  EXPECT_EQ(std::count(gaps.begin(), gaps.end(), '\n'), 121);
+  for (std::size_t at = gaps.find('\n'), next;
+       (next = gaps.find('\n', at + 1)) != std::string::npos; at = next)
+    ASSERT_EQ(gaps[next - 1], ',');
+
+  const auto [one_case, one] = solved(1, 1);
+  EXPECT_FALSE(one.points.at(0).area.seeds);
+  EXPECT_TRUE(one.points.at(0).area.grid);
+  EXPECT_EQ(one.points.at(0).area.error(), one.points.at(0).area.grid);
+  EXPECT_NE(statistics_text(one_case, one, 0).find("how surfaces differ was not measured"),
+            std::string::npos);
+  const auto [two_case, two] = solved(2, 0);
+  EXPECT_TRUE(two.points.at(0).area.seeds);
+  EXPECT_FALSE(two.points.at(0).area.grid);
+  EXPECT_NE(statistics_text(two_case, two, 0).find("what the grid changes was not measured"),
+            std::string::npos);
+  const auto [both_case, both] = solved(2, 1);
+  EXPECT_NE(statistics_text(both_case, both, 0)
+                .find("±: one standard error over the surfaces and what the grid changes\n"),
+            std::string::npos);
+}
+
+// The shortest wave, of a cut-off of 2e5 1/m, is 31.4 um long.
+TEST(ContactStatistics, ASquareThatHoldsNoWaveIsRefused) {
+  const auto refused = [](const std::string& size) {
+    return keyed_refusal_of([&] { small({"sampling.size=" + size}); });
+  };
+  EXPECT_EQ(refused("5 um"),
+            "sampling.size: a square of 5 um holds no wave of the spectrum, which ends at 31.42 "
+            "um\n");
+  EXPECT_NE(refused("31.4 um"), "");
+  EXPECT_EQ(refused("31.5 um"), "");
+  // A narrow band of wave numbers lies between the first two of a longer square.
+  const auto band = [](const std::string& size) {
+    return keyed_refusal_of([&] {
+      small({"roughness.lowest=1.2e5 1/m", "roughness.roll_off=1.2e5 1/m",
+             "roughness.cutoff=1.3e5 1/m", "sampling.size=" + size});
+    });
+  };
+  EXPECT_EQ(band("62.8 um").substr(0, 13), "sampling.size");
+  EXPECT_EQ(band("50 um"), "");
 }
 
 TEST(ContactStatistics, WhatMakesNoSenseIsRefused) {

@@ -88,10 +88,26 @@ TEST(Judgement, EveryVerdictHasAWordOfItsOwn) {
 }
 
 TEST(Judgement, WhatBeliefLeavesIsTheSpreadOverItsWeightedMembers) {
-  Belief belief;
-  belief.members = {{0.5, "", {}}, {0.25, "", {}}, {0.25, "", {}}};
-  EXPECT_DOUBLE_EQ(deviation_over(belief, std::vector<double>{1, 3, 5}), std::sqrt(2.75));
-  EXPECT_EQ(deviation_over(belief, std::vector<double>{2, 2, 2}), 0);
+  const std::vector<double> weights{0.5, 0.25, 0.25}, some{1, 1};
+  EXPECT_DOUBLE_EQ(deviation_over(weights, std::vector<double>{1, 3, 5}), std::sqrt(2.75));
+  EXPECT_DOUBLE_EQ(deviation_over(some, std::vector<double>{1, 3}), 1);
+  EXPECT_EQ(deviation_over(weights, std::vector<double>{2, 2, 2}), 0);
+}
+
+TEST(Judgement, WhatBeliefLeavesIsNoRounding) {
+  // Weights that do not sum up to 1 in the last digit, of a number that no member moves.
+  const std::vector<double> weights(32, 1 / 32.0 + 1e-17), odd{0.1, 0.2, 0.7};
+  EXPECT_EQ(deviation_over(weights, std::vector<double>(32, 1.0617)), 0);
+  EXPECT_EQ(deviation_over(odd, std::vector<double>(3, 1.0617)), 0);
+  EXPECT_EQ(deviation_over(odd, std::vector<double>{1, 1 + 1e-12, 1}), 0);
+  EXPECT_GT(deviation_over(odd, std::vector<double>{1, 1 + 1e-6, 1}), 1e-7);
+}
+
+TEST(Judgement, OfNoNumberIsNotTestable) {
+  const double none = std::nan("");
+  EXPECT_EQ(all_of({{"a", {1, 0.1}, true}, {"b", {none, none}, true}}).verdict,
+            Verdict::NotTestable);
+  EXPECT_EQ(all_of({{"a", {1, 0.1}, true}, {"b", {2, none}, true}}).verdict, Verdict::Agrees);
 }
 
 TEST(Judgement, ADeviationIsFromTheNearestOfAPrintedRange) {

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -59,6 +61,38 @@ TEST(KeptResults, ReadBackWhatWasKeptToTheLastBit) {
   KeptResults done(folder, "a problem");
   done.remove();
   EXPECT_FALSE(KeptResults(folder, "a problem").find(read));
+}
+
+// Judgements of other samples are not gone on with.
+TEST(KeptResults, AreOfTheSamplesThatTheyWereJudgedBy) {
+  const std::string folder = fresh_folder("kept_samples");
+  std::filesystem::create_directories(folder + "/m3_samples");
+  ReproduceOptions options;
+  const std::string shipped = judged_problem(options);
+  EXPECT_EQ(judged_problem(options), shipped);
+  const char* before = std::getenv("PAPILLA_DESIGNS");
+  const std::string named = before ? before : "";
+  ::setenv("PAPILLA_DESIGNS", folder.c_str(), 1);
+  EXPECT_EQ(judged_problem(options), shipped);  // nothing in it stands in the place of a sample
+  const auto with = [&](const std::string& text) {
+    std::ofstream(folder + "/m3_samples/flat.toml")
+        << "schema_version = 1\nbase = \"m3_samples/common.toml\"\n[texture]\ntype = \"flat\"\n"
+        << text;
+    return judged_problem(options);
+  };
+  const std::string own = with("[surface]\ncontact_angle = \"60 deg\"\n");
+  EXPECT_NE(own, shipped);
+  EXPECT_NE(with("[surface]\ncontact_angle = \"61 deg\"\n"), own);
+  if (before)
+    ::setenv("PAPILLA_DESIGNS", named.c_str(), 1);
+  else
+    ::unsetenv("PAPILLA_DESIGNS");
+  // Nor those of another map of the same name.
+  options.finger.skin.map = folder + "/skin.gsf";
+  std::ofstream(options.finger.skin.map) << "a";
+  const std::string mapped = judged_problem(options);
+  std::ofstream(options.finger.skin.map) << "another";
+  EXPECT_NE(judged_problem(options), mapped);
 }
 
 // Whoever can write the folder can write sound records of anything.

@@ -195,6 +195,25 @@ TEST(Explain, PricesAStudyOnTheJobsThatItAllows) {
   EXPECT_NE(run.out.find(" on 1 processor as busy"), std::string::npos) << run.out;
 }
 
+// Their arc meets the floor first: half-way down the holes are half as wide again.
+TEST(Explain, SaysWhatRimsLargerThanTheDepthMakeOfTheWalls) {
+  const Workplace place;
+  const auto said = [&](const char* radius) {
+    return place
+        .run("explain " + kSample +
+             " --set texture.depth=350nm --set 'texture.wall_angle=88deg' --set "
+             "texture.diameter=3um --set texture.edge_radius=" +
+             radius)
+        .out;
+  };
+  EXPECT_NE(said("1500nm").find("warning: rims of 1500 nm end at the depth of 350 nm before the "
+                                "wall is 88 deg steep: holes are 4.49 um wide half-way down, 2.99 "
+                                "um with sharp rims; below 363 nm the wall has its angle\n"),
+            std::string::npos)
+      << said("1500nm");
+  EXPECT_EQ(said("300nm").find("rims of"), std::string::npos) << said("300nm");
+}
+
 TEST(Explain, NamesWhatItSkipsAndWhy) {
   const Workplace place;
   const Outcome undriven = place.run("explain " + kSample + " --set drive.amplitude=0V");
@@ -657,7 +676,21 @@ TEST(Program, RefusesOptionsThatItWouldNotObey) {
            {"accuracy --scenes 20 --set finger.load=1N", "--scenes draws scenes of its own"},
            {"accuracy --scenes 20 --grid 64", "--scenes draws scenes of its own"},
            {"accuracy --tight", "--tight and --first-scene are of --scenes"},
-           {"accuracy --render tables --json", "it takes no other option"}}) {
+           {"accuracy --render tables --json", "it takes no other option"},
+           {"solve droplets --design d.toml --volume 9um3", "--volume is of --gap"},
+           {"solve droplets --design d.toml --size 4um", "--size is of --gap"},
+           {"solve droplets --design d.toml --theta-skin 70deg", "--theta-skin is of --gap"},
+           {"solve droplets --design d.toml --theta-substrate 70deg",
+            "--theta-substrate is of --gap"},
+           {"solve droplets --design d.toml --surface-tension 60mN/m",
+            "--surface-tension is of --gap"},
+           {"solve droplets --design d.toml --hysteresis 0.1", "--hysteresis is of --gap"},
+           {"solve droplets --design d.toml --drops-per-um3 50", "--drops-per-um3 is of --gap"},
+           {"solve droplets --design d.toml --step 100nm", "--step is of --gap"},
+           {"solve droplets --gap g.npy --humidity 55%", "--humidity is of --design"},
+           {"solve droplets --gap g.npy --skin 0", "--skin is of --design"},
+           {"solve droplets --gap g.npy --pin-edges", "--pin-edges is of --design"},
+           {"solve droplets --gap g.npy --wick-corners", "--wick-corners is of --design"}}) {
     const Outcome run = place.run(arguments);
     EXPECT_EQ(run.status, 2) << arguments;
     EXPECT_EQ(run.out, "") << arguments;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/program.h"
+#include "tests/support/thorough.h"
 
 namespace papilla::tests::optimize_slow_test {
 namespace {
@@ -41,8 +42,9 @@ bool has_mpi(const Workplace& place) {
 
 TEST(Optimize, KillsAtRandomMomentsChangeNothing) {
   Workplace place;
-  const Outcome run = place.shell(
-      "'" PAPILLA_SOURCE_DIR "/tests/kill_test' '" PAPILLA_PROGRAM "' 5 '" + kStudy + "'");
+  const Outcome run =
+      place.shell("'" PAPILLA_SOURCE_DIR "/tests/kill_test' '" PAPILLA_PROGRAM "' " +
+                  std::to_string(cases(2, 5)) + " '" + kStudy + "'");
   EXPECT_EQ(run.status, 0) << run.out << run.err;
 }
 

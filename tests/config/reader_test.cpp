@@ -1,5 +1,6 @@
 #include "config/reader.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -700,6 +701,99 @@ TEST(Reader, ABaseFillsWhatIsMissing) {
   EXPECT_EQ(merged("texture = 3\n"), "a = 1\nb = 2\nlist = [1, 2]\ntexture = 3\n");
 }
 
+// A base with two layers and volumes of its own, and a file that changes single items of them.
+class ItemsOfABase : public ::testing::Test {
+ protected:
+  ItemsOfABase() {
+    folder_.write("base.toml",
+                  "schema_version = 1\n"
+                  "[[surface.dielectric]]\nmaterial = \"Al2O3\"\nthickness = \"300 nm\"\n"
+                  "[[surface.dielectric]]\nmaterial = \"HfO2\"\nthickness = \"100 nm\"\n"
+                  "[finger]\n"
+                  "base = \"mine.toml\"\n");
+    folder_.write("mine.toml",
+                  "schema_version = 1\n"
+                  "[water]\n"
+                  "volume = [\"0.5 um3\", \"2 um3\", \"6 um3\", \"20 um3\"]\n");
+  }
+
+  Document read(const std::string& text, Whole& whole,
+                const std::vector<std::string>& overrides = {}) const {
+    Document document =
+        load_document(folder_.write("top.toml", "schema_version = 1\n" + text), overrides);
+    read_section(document, "", whole);
+    finish(document);
+    return document;
+  }
+
+  const Folder folder_{"items"};
+};
+
+TEST_F(ItemsOfABase, ChangeAloneInASection) {
+  Whole whole;
+  const Document document =
+      read("base = \"base.toml\"\n[surface.dielectric.0]\nthickness = \"280 nm\"\n", whole);
+  ASSERT_EQ(whole.surface.dielectric.size(), 2u);
+  EXPECT_EQ(whole.surface.dielectric[0].material, "Al2O3");
+  EXPECT_EQ(whole.surface.dielectric[0].thickness, 280e-9);
+  EXPECT_EQ(whole.surface.dielectric[1].material, "HfO2");
+  EXPECT_EQ(whole.surface.dielectric[1].thickness, 100e-9);
+  const auto file = [&](const char* path) {
+    return fs::path(document.origins().at(path).file).filename().string();
+  };
+  EXPECT_EQ(file("surface.dielectric.0.thickness"), "top.toml");
+  EXPECT_EQ(file("surface.dielectric.0.material"), "base.toml");
+  EXPECT_EQ(file("surface.dielectric.1.thickness"), "base.toml");
+}
+
+TEST_F(ItemsOfABase, ChangeAloneInAListOfNumbersWhoseSourcesAreSaid) {
+  Whole whole;
+  const Document document =
+      read("base = \"base.toml\"\n[finger]\nwater.volume.1 = \"3 um3\"\n", whole);
+  EXPECT_EQ(whole.finger.water.volume, (std::vector{0.5e-18, 3e-18, 6e-18, 20e-18}));
+  const std::string text = to_toml(whole, &document.origins());
+  const std::size_t line = text.find("\nvolume = [");
+  const std::string said = text.substr(line, text.find('\n', line + 1) - line);
+  EXPECT_NE(said.find("  # 1: "), std::string::npos) << said;
+  EXPECT_NE(said.find("top.toml:4:18; the others: "), std::string::npos) << said;
+  EXPECT_TRUE(said.ends_with("mine.toml:3:10")) << said;
+  // The finger's file below a section of this file.
+  Whole below;
+  read("[finger]\nbase = \"mine.toml\"\nwater.volume.0 = \"0.4 um3\"\n", below);
+  EXPECT_EQ(below.finger.water.volume, (std::vector{0.4e-18, 2e-18, 6e-18, 20e-18}));
+  // As a file does, so does the command line.
+  Whole set;
+  const Document changed = read("base = \"base.toml\"\n", set, {"finger.water.volume.1=3 um3"});
+  EXPECT_EQ(set.finger.water.volume, whole.finger.water.volume);
+  EXPECT_NE(to_toml(set, &changed.origins())
+                .find("  # 1: --set finger.water.volume.1=3 um3; the others: "),
+            std::string::npos);
+}
+
+TEST_F(ItemsOfABase, AreThoseThatItHas) {
+  Whole whole;
+  const auto told = [&](const std::string& text) {
+    const auto problems = tests::problems_of([&] { read("base = \"base.toml\"\n" + text, whole); });
+    EXPECT_EQ(problems.size(), 1u);
+    const Problem p = problems.empty() ? Problem{} : problems[0];
+    return fmt::format("{}:{}: {}: {}", fs::path(p.file).filename().string(), p.line, p.key,
+                       p.message);
+  };
+  EXPECT_EQ(told("[surface.dielectric.2]\nthickness = \"1 nm\"\n"),
+            "top.toml:3: surface.dielectric: no item 2 in a list of 2");
+  EXPECT_EQ(told("[finger]\nwater.volume.4 = \"3 um3\"\n"),
+            "top.toml:4: finger.water.volume: no item 4 in a list of 4");
+}
+
+TEST(Writer, NumbersSetAloneInADefaultListSaySo) {
+  Document document = parse_document("[environment]\nrelative_humidity.1 = \"40 %\"\n", "a.toml");
+  Whole whole;
+  read_section(document, "", whole);
+  finish(document);
+  const std::string text = to_toml(whole, &document.origins());
+  EXPECT_NE(text.find("  # 1: a.toml:2:23; the others: default ("), std::string::npos) << text;
+}
+
 TEST(Reader, FilesThatAreNoneAreRefusedWithWhatTheyAre) {
   const Folder folder("none");
   const auto why = [&](const std::string& path) {
@@ -769,13 +863,35 @@ TEST(Toml, KeysHaveTwoHundredDotsAtMost) {
     EXPECT_EQ(error.problems()[0].text(), "x:2:1: more than 200 dots in a key");
   }
   // Counted anew behind a comma, an equals sign and a line.
-  for (const char* between : {",", "=", "\n"}) {
-    try {
-      parse_toml("# " + std::string(150, '.') + between + "# " + std::string(150, '.') + "\n", "x");
-    } catch (const InputError& error) {
-      ADD_FAILURE() << error.what();
-    }
-  }
+  const auto key = [](const std::string& part, int dots) {
+    std::string out = part;
+    for (int i = 0; i < dots; ++i) out += "." + part;
+    return out;
+  };
+  std::string numbers = "x = [1.5";
+  for (int i = 0; i < 300; ++i) numbers += ", 1.5";
+  for (const std::string& text :
+       {numbers + "]\n", key("a", 150) + " = { " + key("b", 150) + " = 1 }\n",
+        "[" + key("a", 150) + "]\n[" + key("b", 150) + "]\n"})
+    EXPECT_EQ(refusal_of([&] { parse_toml(text, "x"); }), "");
+}
+
+// Wherever they stand; a '#' in quotes begins none, so that it hides no deep key.
+TEST(Toml, CommentsMayHaveAnyNumberOfDots) {
+  const std::string many(300, '.');
+  for (const std::string& text :
+       {"# " + many + "\na = 1\n", "a = 1 # " + many + "\n", "a = \"3 um\" # \"" + many + "\n",
+        "a = \"x \\\" # y\" # " + many + "\n", "a = '#' # " + many,
+        "  # it's " + many + "\na = 1\n", "a = \"\"\"\n# " + many + "\n\"\"\"\n"})
+    EXPECT_EQ(refusal_of([&] { parse_toml(text, "x"); }), "") << text;
+  std::string deep;
+  for (int i = 0; i < 201; ++i) deep += ".b";
+  for (const std::string& text :
+       {"\"#\"" + deep + " = 1\n", "'#'" + deep + " = 1\n", "\"\\\"#\"" + deep + " = 1\n",
+        "t = { a = \"\"\"\n' \"\"\", \"'#\"" + deep + " = 1 }\n",
+        "t = { a = \"\"\"\n# \"\"\", b" + deep + " = 1 }\n"})
+    EXPECT_TRUE(refusal_of([&] { parse_toml(text, "x"); }).ends_with("more than 200 dots in a key"))
+        << text;
 }
 
 TEST(Describe, FindsNumbersByPath) {

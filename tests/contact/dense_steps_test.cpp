@@ -484,6 +484,13 @@ TEST(DenseFields, CertificateIsWhatTheLoadCouldStillGain) {
   EXPECT_DOUBLE_EQ(certificate(problem, 2), (40 - 20 + 2 * 10) / (10 * 0.5));
   EXPECT_DOUBLE_EQ(certificate(problem, 0.5), (40 - 5) / (10 * 0.5));
   EXPECT_EQ(certificate(problem, 5), (40 - 50 + 2 * 40) / (10 * 0.5));
+  problem.cap = 4;  // 4 on each of the lowest gain less, so that no more is taken off
+  EXPECT_DOUBLE_EQ(certificate(problem, 2), (40 - 20 + 4 * 1) / (10 * 0.5));
+  EXPECT_DOUBLE_EQ(certificate(problem, 4), (40 - 40 + 4 * (3 + 2 + 1)) / (10 * 0.5));
+  EXPECT_DOUBLE_EQ(certificate(problem, 0.5), (40 - 5) / (10 * 0.5));
+  problem.cap = 30;  // 30 on the lowest gain more than twice the load
+  EXPECT_DOUBLE_EQ(certificate(problem, 2), (40 - 20 + 2 * 10) / (10 * 0.5));
+  problem.cap = kInfinity;
   problem.load = 0;
   EXPECT_EQ(certificate(problem, 2), kInfinity);  // what is below the level has yet to touch
   EXPECT_EQ(certificate(problem, 1), 0);

@@ -95,6 +95,7 @@ void walk(Stepping& s, Pixels& pixels, std::vector<std::vector<double>>& seen) {
     seen.push_back({pixels.room()});
     pixels.advance(plain ? 1 : 0.8);
     note();
+    seen.push_back({s.fields.certificate()});
   }
 }
 

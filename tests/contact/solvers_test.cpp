@@ -241,6 +241,37 @@ TEST(Approach, GivesTheLoadThatGivesTheApproach) {
   EXPECT_EQ(solve_approach(*kernel, skin.z, top + 1e-9, {}).status, ContactStatus::Invalid);
 }
 
+// Below a hardness as well: on one grid, from coarser ones, and from the state of a harder solid,
+// which start beyond it.
+TEST(Approach, BelowAHardnessGivesTheLoadThatGivesTheApproach) {
+  const double top = 1e-7, load = 75e3;
+  const ContactOptions soft{.tolerance = 1e-11, .hardness = 0.5e6};
+  for (const int n : {32, 128}) {
+    const Grid grid{n, n, 12e-6, 12e-6};
+    const auto kernel = make_contact_kernel(grid, {53e6, 0, 0, 53e6, 0});
+    std::vector<double> height;
+    for (int i = 0; i < n * n; ++i)
+      height.push_back(top * std::cos(2 * kPi * (i % n) / n) * std::cos(2 * kPi * (i / n) / n));
+    const ContactSolution by_load = solve_contact(*kernel, height, load, {}, soft);
+    ASSERT_TRUE(by_load.converged()) << n << " " << by_load.reason;
+    const double approach = by_load.shift + top;
+    const ContactSolution hard = solve_approach(*kernel, height, approach, {.tolerance = 1e-11});
+    EXPECT_GT(*std::max_element(hard.pressure.begin(), hard.pressure.end()), 2 * soft.hardness);
+    for (const ContactSolution* start : {static_cast<const ContactSolution*>(nullptr), &hard}) {
+      const ContactSolution s = solve_approach(*kernel, height, approach, soft, start);
+      EXPECT_EQ(s.status, ContactStatus::Converged) << n << " " << s.reason;
+      EXPECT_NEAR(mean(s.pressure), load, 1e-6 * load) << n;
+      EXPECT_LT(difference(s.pressure, by_load.pressure), 1e-6) << n;
+    }
+    EXPECT_EQ(solve_approach(*kernel, height, 50e-9, soft).status, ContactStatus::Converged) << n;
+    // What no pressure reaches changes nothing.
+    const ContactSolution harder =
+        solve_approach(*kernel, height, approach, {.tolerance = 1e-11, .hardness = 1e12});
+    EXPECT_EQ(harder.status, ContactStatus::Converged) << n << " " << harder.reason;
+    EXPECT_LT(difference(harder.pressure, hard.pressure), 1e-6) << n;
+  }
+}
+
 // A thin compressible layer on a rigid base is a bed of springs of stiffness
 // E (1-n) / ((1+n)(1-2n) d).
 TEST(Approach, ThinLayerOnARigidBaseIsABedOfSprings) {

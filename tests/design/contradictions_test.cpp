@@ -2,6 +2,7 @@
 // each by the number that just is none.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "base/error.h"
 #include "design/design.h"
 #include "design/study.h"
+#include "tests/support/refusal.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests::contradictions_test {
 namespace {
@@ -46,6 +49,28 @@ TEST(Contradictions, OfTheAirAreItsOrderAndItsWeights) {
     air.weights = weights;
     EXPECT_EQ(said(d), words);
   }
+}
+
+// A finger's file by itself, as predict, reproduce and calibrate read it.
+TEST(Contradictions, OfAFingersFileAreRefusedAtTheirKeys) {
+  const auto refused = [](const std::string& text) {
+    const std::string file = temporary("contradicted.toml");
+    std::ofstream(file) << "schema_version = 1\n" << text;
+    return keyed_refusal_of([&] { read_finger(file); });
+  };
+  EXPECT_EQ(refused("name = \"fine\"\n"), "");
+  EXPECT_EQ(refused("[water]\nrelative_humidity = [\"20 %\", \"60 %\"]\n"),
+            "water.volume: expected 2 volumes, one per humidity of water.relative_humidity, got "
+            "4\n");
+  for (const char* nodes :
+       {"[\"75 %\", \"55 %\", \"35 %\", \"15 %\"]", "[\"15 %\", \"35 %\", \"35 %\", \"75 %\"]"})
+    EXPECT_EQ(refused(std::string("[water]\nrelative_humidity = ") + nodes + "\n"),
+              "water.relative_humidity: expected rising values\n");
+  EXPECT_EQ(refused("load = \"0 N\"\n"), "load: expected a force above 0 N\n");
+  EXPECT_EQ(refused("[saturation]\nrest_low = \"50 deg\"\nrest_high = \"50 deg\"\n"),
+            "saturation.rest_high: expected another angle than rest_low\n");
+  EXPECT_EQ(refused("[skin]\ncutoff = \"4 um\"\n"),
+            "skin.cutoff: expected a shorter wavelength than roll_off\n");
 }
 
 TEST(Contradictions, OfTheFingerAreItsWaterItsLoadAndItsSkin) {

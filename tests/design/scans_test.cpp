@@ -38,5 +38,23 @@ TEST(DesignScans, AreThoseOfTheTextureAndOfTheSkin) {
   EXPECT_EQ(two[1].changes.width, one[0].changes.width);
 }
 
+// In a stack the keys that choose the square are those of the part.
+TEST(DesignScans, AMapInAStackNamesTheKeysOfItsPart) {
+  Measured3d measured;
+  measured.file = PAPILLA_DESIGNS_DIR "/measured_surface/scan.gsf", measured.patch = 12e-6;
+  Stack stack;
+  stack.parts = {Texture{RandomRough{}}, Texture{measured}};
+  Stack outer;
+  outer.parts = {Texture{stack}, Texture{measured}};
+  Design design;
+  design.texture = Texture{outer};
+  const std::vector<DesignScan> scans = scans_of(design);
+  ASSERT_EQ(scans.size(), 2u);
+  EXPECT_NE(text(scans[0]).find("(texture.parts.0.parts.1.patch, at_x, at_y)"), std::string::npos)
+      << text(scans[0]);
+  EXPECT_NE(text(scans[1]).find("(texture.parts.1.patch, at_x, at_y)"), std::string::npos)
+      << text(scans[1]);
+}
+
 }  // namespace
 }  // namespace papilla::tests::scans_test

@@ -54,7 +54,8 @@ TEST(Words, AFileThatIsNoDesignSaysWhatTakesIt) {
       {"fingers/belief.toml", "no design but a belief: a finger names it"},
       {"fingers/reference.calibration.toml",
        "no design but a calibration: `papilla calibrate FILE`"},
-      {"fingers/moist.toml", "no design but a finger: a design names it, finger = \"FILE\""},
+      {"fingers/moist.toml",
+       "no design but a finger: a design names it in its [finger], base = \"FILE\""},
       {"physics/rough_contact.toml", "no design but a case of `papilla solve contact`"},
       {"physics/fingertip_drive.toml", "no design but a case of `papilla solve drive`"},
       {"physics/wrist_on_glass.toml", "no design but a case of `papilla solve persson`"}};

@@ -172,6 +172,15 @@ TEST(Modulation, ForceOfASineIsRectifiedPartPlusRippleAtTwiceTheFrequency) {
   EXPECT_LT(relative(s.peak_current, r.current), 2e-3);  // sampled peak
 }
 
+// At 49 Hz half a period times the frequency is less than a half by rounding.
+TEST(Modulation, ASquareWaveIsHalfUpAndHalfDown) {
+  for (const double frequency : {25e3, 49.0, 98.0, 103.0}) {
+    const Signal s = source_signal(Waveform::Square, 1, frequency, {}, 1, 1 / frequency, 4096);
+    for (std::size_t i = 0; i < s.value.size(); ++i)
+      ASSERT_EQ(s.value[i], i < 2048 ? 1 : -1) << frequency << " Hz " << i;
+  }
+}
+
 TEST(Modulation, CommonPeriodIsTheShortest) {
   EXPECT_DOUBLE_EQ(common_period({10, 100, 25e3}), 0.1);
   EXPECT_DOUBLE_EQ(common_period({15e3, 25e3}), 1. / 5e3);
@@ -285,7 +294,7 @@ TEST(Network, AnInsulatorIsItsCapacitance) {
 }
 
 // Dahl's law under a constant limit, while the finger moves one way: force = limit (1 - e^(-k x /
-// limit)), here in fifty steps a sample.
+// limit)).
 TEST(Rubbing, FrictionBuildsUpByDahlsLaw) {
   RubbingFinger finger;
   finger.frequency = 2;
@@ -299,15 +308,12 @@ TEST(Rubbing, FrictionBuildsUpByDahlsLaw) {
     return 0.25;
   });
   ASSERT_EQ(samples.size(), 50u);
-  double left = 1, before = 0;  // 1 - force over limit
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double time = 2e-3 * static_cast<double>(i);
     const double place = 10e-3 * std::sin(4 * kPi * time);
-    left *= std::pow(1 - 800 * (place - before) / 50 / 0.25, 50);
-    before = place;
     EXPECT_DOUBLE_EQ(samples[i].time, time);
     EXPECT_NEAR(samples[i].place, place, 1e-15);
-    EXPECT_NEAR(samples[i].lateral, 0.25 * (1 - left), 1e-12) << i;
+    EXPECT_NEAR(samples[i].lateral, 0.25 * (1 - std::exp(-800 * place / 0.25)), 1e-12) << i;
     EXPECT_EQ(asked[i], i == 0 ? 0 : samples[i - 1].current);
     const double current = samples[i].state == SlipState::Stuck     ? 3e-3
                            : samples[i].state == SlipState::Partial ? 2e-3
@@ -315,7 +321,43 @@ TEST(Rubbing, FrictionBuildsUpByDahlsLaw) {
     EXPECT_EQ(samples[i].current, current);
   }
   EXPECT_EQ(samples[0].state, SlipState::Stuck);
-  EXPECT_NEAR(samples[20].lateral, 0.25 * (1 - std::exp(-800 * samples[20].place / 0.25)), 1e-6);
+}
+
+// Also where a step is hundreds of times the way to full slip; a limit of 0 is no friction.
+TEST(Rubbing, FrictionStaysBelowItsLimitHoweverStiffTheSkin) {
+  for (const double stiffness : {800.0, 1e4, 1e6}) {
+    RubbingFinger finger;
+    finger.stiffness = stiffness;
+    double most = 0;
+    for (const RubbingSample& at : rub(finger, {}, [](double) { return 0.3; })) {
+      ASSERT_TRUE(std::isfinite(at.lateral)) << stiffness;
+      ASSERT_LE(std::abs(at.lateral), 0.3) << stiffness;
+      most = std::max(most, std::abs(at.lateral));
+    }
+    EXPECT_NEAR(most, 0.3, 1e-9) << stiffness;
+    for (const RubbingSample& at : rub(finger, {}, [](double) { return 0.0; }))
+      ASSERT_EQ(at.lateral, 0) << stiffness;
+  }
+}
+
+// At 200 Hz a step of 1 ms is a fifth of a turn: up by 2 um, then back by 0.8 and 2.5 um.
+TEST(Rubbing, ATurnIsFollowedExactly) {
+  RubbingFinger finger;
+  finger.stroke = 2e-6 / std::sin(0.4 * kPi);
+  finger.frequency = 200;
+  finger.duration = 4e-3;
+  const auto samples = rub(finger, {}, [](double) { return 0.5e-3; });
+  ASSERT_EQ(samples.size(), 4u);
+  EXPECT_EQ(samples[0].lateral, 0);
+  double force = 0;
+  for (std::size_t i = 1; i < 4; ++i) {
+    const double way = samples[i].place - samples[i - 1].place;
+    EXPECT_EQ(way > 0, i == 1);
+    const double full = way > 0 ? 0.5e-3 : -0.5e-3;
+    force = full + (force - full) * std::exp(-800 * std::abs(way) / 0.5e-3);
+    EXPECT_NEAR(samples[i].lateral, force, 1e-15) << i;
+  }
+  EXPECT_NEAR(samples[1].lateral, 0.5e-3 * (1 - std::exp(-3.2)), 1e-12);
 }
 
 // Each state by hand: rates per second of a ratio that is sampled every 0.1 s.

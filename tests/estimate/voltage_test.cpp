@@ -55,6 +55,20 @@ TEST(VoltageFor, DoesNotDependOnTheAmplitudeOfTheDesign) {
   EXPECT_NEAR(a.amplitude.value / b.amplitude.value, 1, 2e-3);
 }
 
+TEST(VoltageFor, DoesNotDependOnWhatTheDielectricWouldHold) {
+  Scene scene = scene_at(0.55);
+  scene.drive.amplitude = 90;  // above the answer
+  std::vector<double> amplitudes;
+  for (const double strength : {1e9, 1e12}) {
+    scene.surface.dielectric[0].strength = strength;
+    const VoltageAnswer a = voltage(scene, Texture{Flat{}}, small(Estimator::Load), 0.05);
+    ASSERT_TRUE(a.reached()) << text(a);
+    EXPECT_LT(a.amplitude.value, 80);
+    amplitudes.push_back(a.amplitude.value);
+  }
+  EXPECT_NEAR(amplitudes[1], amplitudes[0], 1e-3 * amplitudes[0]);
+}
+
 // Nor where the rule is held against the 3-D field, from which it is farther the higher the
 // voltage.
 TEST(VoltageFor, HasTheFieldOfItsOwnAmplitude) {

@@ -3,6 +3,7 @@
 #include "geometry/io/drawing.h"
 #include "geometry/io/layout.h"
 #include "tests/fabricate/exported_folder.h"
+#include "tests/support/thorough.h"
 
 namespace papilla::tests::verify_slow_test {
 namespace {
@@ -82,7 +83,7 @@ bool corrupt(Corruption corruption, const Folder& folder, const Folder& other,
   return true;
 }
 
-TEST(Verify, NamesEachOf200CorruptedFilesAndNoOther) {
+TEST(Verify, NamesEachCorruptedFileAndNoOther) {
   const Workplace place;
   std::vector<Folder> folders, others;
   for (const auto& [name, texture] : kinds()) {
@@ -96,7 +97,7 @@ TEST(Verify, NamesEachOf200CorruptedFilesAndNoOther) {
     return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
   };
   std::map<Corruption, int> done;
-  for (int made = 0; made < 200;) {
+  for (int made = 0; made < cases(60, 200);) {
     const std::size_t kind = draw(folders.size());
     const Folder& folder = folders[kind];
     const ExportedFile& file = folder.made().files[draw(folder.made().files.size())];

@@ -112,6 +112,36 @@ TEST(Balance, OverFlatGlassWithoutWaterItIsThePerssonClosure) {
               3e-3 * a.electrostatic_force.value);
 }
 
+// What air withstands and what a film's charge makes hold the open gaps of both, gap by gap.
+TEST(Balance, AirAndFilmHoldTheOpenGapsOfThePerssonClosureAsItsOwn) {
+  Scene scene = balanced(200);
+  scene.finger.water.volume = {0, 0, 0, 0};
+  scene.finger.macro.pressure_peak = 1;
+  const auto by_persson = [](Scene s) {
+    s.model.closure = Closure::Persson;
+    const ScaleBridge bridge(s, small(), kGrid, kHumidity);
+    const PatchResult none = bridge.combine(std::vector<PatchResult>(bridge.pressures().size()));
+    EXPECT_TRUE(none.status.sound()) << text(none.status);
+    return none.pull / kGrid.area();
+  };
+  const double free = by_persson(scene);
+  Scene of_air = scene, of_film = scene;
+  of_air.model.air_limit = AirLimit::Emission;
+  of_film.surface.dielectric[0].saturation_field = 10e6;
+  for (const Scene& held : {of_air, of_film}) {
+    const double pull = by_persson(held);
+    EXPECT_GT(pull, 0);
+    EXPECT_LT(pull, 0.9 * free);
+    const Balance b = solved(held);
+    EXPECT_NEAR(pull, b.far.pull, 0.01 * b.far.pull);
+    const GapDistribution gaps =
+        ridge_field(held.finger, kPatchNumber, kHumidity).gaps(b.nominal + pull);
+    EXPECT_NEAR(pull,
+                open_gap_pull(gap_shares(gaps, kPatchNumber), {}, field_problem(held, kHumidity)),
+                1e-4 * pull);
+  }
+}
+
 TEST(Balance, PatchesInContactCarryTheLoadAndAllThatTheOpenGapsAdd) {
   for (const double amplitude : {0.0, 60.0, 150.0}) {
     for (const int nodes : {1, 3}) {

@@ -132,6 +132,27 @@ TEST(FieldRatio, ColumnsAreNotCorrectedAndThePaperIsLeftAlone) {
   EXPECT_FALSE(field_ratios(still, deep_holes(), small(2))[0].error);
 }
 
+// Wet skin is saturated, and has another layer than clean skin at every humidity.
+TEST(FieldRatio, HasTheLagOfTheFingerInItsState) {
+  Scene scene = planar_glass();
+  scene.drive.frequency = 30;
+  scene.finger.electrical.thickness_15 = 10e-9;
+  scene.finger.electrical.thickness_75 = 500e-9;
+  for (const FieldMethod method : {FieldMethod::Full, FieldMethod::Spread}) {
+    scene.model.field = method;
+    scene.finger.state = FingerState::Clean;
+    const FieldRatios clean = field_ratios(scene, deep_holes(), small(1));
+    scene.finger.state = FingerState::Wet;
+    const FieldRatios wet = field_ratios(scene, deep_holes(), small(1));
+    const FieldRatios said = field_ratios(in_its_state(scene), deep_holes(), small(1));
+    for (std::size_t i = 0; i < wet.size(); ++i) {
+      ASSERT_TRUE(wet[i].error && said[i].error);
+      EXPECT_NEAR(*wet[i].error, *said[i].error, 1e-6);
+    }
+    EXPECT_LT(*wet[0].error, *clean[0].error - 0.01);
+  }
+}
+
 TEST(FieldRatio, IsTheSameForAnyNumberOfThreads) {
   Fidelity one = small(3), two = small(3);
   one.threads = 1;

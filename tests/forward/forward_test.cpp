@@ -162,6 +162,18 @@ TEST(Forward, VoltagePastPullInEndsInAStatus) {
   EXPECT_FALSE(r.points[0].status.sound());
 }
 
+// The command that docs/theory/coupling.md names, at one of its humidities on fewer pixels.
+TEST(Forward, ThePublishedFlatSampleInOnePassEndsInAPullIn) {
+  const Design design = read_design(
+      PAPILLA_SOURCE_DIR "/designs/m3_samples/flat.toml",
+      {"accuracy.level=draft", "accuracy.grid=64", "environment.relative_humidity=[\"15 %\"]",
+       "model.coupling=one_pass", "model.air_limit=none", "drive.amplitude=600V"});
+  const Response r = evaluate(scene_of(design), design.texture, fidelity_of(design));
+  EXPECT_EQ(r.points[0].status.trouble, Trouble::SecondPassPullIn) << text(r.points[0].status);
+  EXPECT_TRUE(r.points[0].knows_undriven());
+  EXPECT_FALSE(r.points[0].knows_driven());
+}
+
 TEST(Forward, OnePassSaysWhereItsNextPassWouldDoubleThePull) {
   Scene scene = driven_scene();
   scene.environment.relative_humidity = {0.55};

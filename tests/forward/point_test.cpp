@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "base/constants.h"
 #include "forward/scene_terms.h"
+#include "numerics/statistics.h"
 #include "physics/contact/facts.h"
 
 namespace papilla::tests::point_test {
@@ -106,11 +108,11 @@ TEST(Point, ByTheLoadLawAreasGoWithThePowerOfTheLoads) {
   const double beta = c.fidelity.load_exponent, off = std::pow(1.2, beta), on = std::pow(2, beta);
   EXPECT_NEAR(p.area_fraction_off.value, 0.02 * off, 1e-12);
   EXPECT_NEAR(p.area_fraction_on.value, 0.02 * on, 1e-12);
-  // The dry area's scatter, and that of the load's ratio through the power.
-  EXPECT_NEAR(p.area_fraction_off.parts.sampling,
-              0.02 * off * std::hypot(kSe / 2, beta * 0.1 * kSe / 1.2), 1e-10);
-  EXPECT_NEAR(p.area_fraction_on.parts.sampling,
-              0.02 * on * std::hypot(kSe / 2, beta * 0.5 * kSe / 2), 1e-10);
+  // The dry area's scatter, and that of the load's ratio through the power: of the same skins.
+  EXPECT_NEAR(p.area_fraction_off.parts.sampling, 0.02 * off * (kSe / 2 + beta * 0.1 * kSe / 1.2),
+              1e-10);
+  EXPECT_NEAR(p.area_fraction_on.parts.sampling, 0.02 * on * (kSe / 2 + beta * 0.5 * kSe / 2),
+              1e-10);
   EXPECT_DOUBLE_EQ(p.strength, shear_strength(c.scene, 0.5) * c.carrying());
   const double n = c.carrying() / c.plan.grid.area();
   const double friction = p.strength * 0.02 * off + 2e-8 * n,
@@ -119,8 +121,49 @@ TEST(Point, ByTheLoadLawAreasGoWithThePowerOfTheLoads) {
   EXPECT_NEAR(p.friction_on.value, driven, 1e-12 * driven);
   EXPECT_NEAR(p.modulation.value, driven / friction - 1, 1e-12);
   EXPECT_NEAR(p.friction_off.parts.sampling,
-              std::hypot(p.strength * p.area_fraction_off.parts.sampling, 1e-8 * kSe * n),
-              1e-12 * friction);
+              p.strength * p.area_fraction_off.parts.sampling + 1e-8 * kSe * n, 1e-12 * friction);
+}
+
+// Second method for the error of sampling: the friction without each of sixteen skins, whose area,
+// loads and retention go together in part.
+TEST(Point, TheScatterOfFrictionIsThatOfTheJackknife) {
+  Case c;
+  c.patches.clear();
+  constexpr int kSkins = 16;
+  for (int k = 0; k < kSkins; ++k) {
+    const double x = 1 + 0.3 * std::sin(k), y = 1 + 0.3 * std::cos(2.3 * k);
+    PatchResult p;
+    p.load = 1e-6;
+    p.capillary_off = 2e-7 * (x + 0.5 * y);
+    p.capillary_on = p.capillary_off;
+    p.pull = 4e-7 * x;
+    p.area_dry = 0.02 * x;
+    p.area_off = 0.02 * x;
+    p.area_on = 0.03 * x;
+    p.retention = p.retention_on = 5e-6 * (x + y);
+    c.patches.push_back(p);
+  }
+  const auto expect_jackknife = [&] {
+    const ResponsePoint all = c.point();
+    for (const auto friction : {&ResponsePoint::friction_off, &ResponsePoint::friction_on}) {
+      std::vector<double> without;
+      for (int k = 0; k < kSkins; ++k) {
+        Case others = c;
+        others.patches.erase(others.patches.begin() + k);
+        without.push_back((others.point().*friction).value);
+      }
+      const Measured& stated = all.*friction;
+      const double wanted = mean_estimate(jackknife_samples(stated.value, without)).se;
+      EXPECT_GT(stated.parts.sampling, 0);
+      EXPECT_NEAR(stated.parts.sampling, wanted, 0.01 * wanted);
+    }
+  };
+  expect_jackknife();
+  c.fidelity.estimator = Estimator::Area;
+  c.plan.traction_solves = true;
+  expect_jackknife();
+  c.scene.touch.coefficient = 0.3;
+  expect_jackknife();
 }
 
 // Half the patch is a tenth of a per cent off the power, and ten times the patch is the patch.

@@ -19,6 +19,14 @@ Scene dry(double amplitude) {
   return scene;
 }
 
+// Water that attracts with more than the first steps of the load.
+Scene wet(double amplitude, double humidity) {
+  Scene scene = dry(amplitude);
+  scene.environment.relative_humidity = {humidity};
+  scene.finger.water = SkinWater{};
+  return scene;
+}
+
 Fidelity one_skin() {
   Fidelity f = fidelity_level("design");
   f.grid = 64;
@@ -29,14 +37,16 @@ Fidelity one_skin() {
   return f;
 }
 
-double margin(const Scene& scene) {
-  return pull_in(scene, Texture{}, one_skin(), 0.15).margin.value;
+PullIn pull_in_of(const Scene& scene) {
+  return pull_in(scene, Texture{}, one_skin(), scene.environment.relative_humidity.front());
 }
+
+double margin(const Scene& scene) { return pull_in_of(scene).margin.value; }
 
 // A second method: the search for an equilibrium finds the load at which the branch has closed the
 // gap, and no jump before it.
 TEST(PullIn, OfAGapThatClosesWithoutAFoldIsTheVoltageOfItsEquilibrium) {
-  const PullIn far = pull_in(dry(200), Texture{}, one_skin(), 0.15);
+  const PullIn far = pull_in_of(dry(200));
   EXPECT_EQ(far.folds, 0);
   const double volts = 200 * far.margin.value;
   EXPECT_GT(volts, 300);
@@ -50,6 +60,20 @@ TEST(PullIn, IsOneVoltageWhateverTheDrive) {
   const double fold = 250 * margin(dry(250));
   for (const double amplitude : {300.0, 400.0, 1000.0})
     EXPECT_NEAR(amplitude * margin(dry(amplitude)), fold, 0.01 * fold) << amplitude;
+  const double with_water = 250 * margin(wet(250, 0.5));
+  EXPECT_LT(with_water, 250 * kFarthestPullIn);
+  for (const double amplitude : {400.0, 1000.0})
+    EXPECT_NEAR(amplitude * margin(wet(amplitude, 0.5)), with_water, 0.01 * with_water)
+        << amplitude;
+}
+
+// Loads that water holds by itself lie below the branch: it neither ends nor turns there.
+TEST(PullIn, OfAWetGapIsBeyondAVoltageThatHasAnEquilibrium) {
+  const Scene scene = wet(200, 0.75);
+  const ResponsePoint there = evaluate(scene, Texture{}, one_skin()).points[0];
+  ASSERT_FALSE(there.status.pull_in()) << text(there.status);
+  EXPECT_GT(there.capillary_force.value, 0.1 * scene.finger.load);
+  EXPECT_GT(margin(scene), 1);
 }
 
 // Without a step over load and film: a second difference is of the size that the curve's own bend
@@ -77,9 +101,13 @@ TEST(PullIn, IsSmoothOverLoadAndFilm) {
 TEST(PullIn, IsFarWhereAirHoldsThePull) {
   Scene scene = dry(200);
   scene.model.air_limit = AirLimit::Emission;
-  const PullIn held = pull_in(scene, Texture{}, one_skin(), 0.15);
-  EXPECT_EQ(held.margin.value, kFarthestPullIn);
-  EXPECT_EQ(held.folds, 0);
+  Scene moist = wet(200, 0.75);
+  moist.model.air_limit = AirLimit::Emission;
+  for (const Scene& s : {scene, moist}) {
+    const PullIn held = pull_in_of(s);
+    EXPECT_EQ(held.margin.value, kFarthestPullIn);
+    EXPECT_EQ(held.folds, 0);
+  }
 }
 
 }  // namespace

@@ -4,12 +4,13 @@
 
 #include <set>
 
+#include "base/check.h"
 #include "forward/response.h"
 
 namespace papilla::tests::status_test {
 namespace {
 
-constexpr int kTroubles = static_cast<int>(Trouble::Breakdown) + 1;
+constexpr int kTroubles = static_cast<int>(Trouble::RidgesCarry) + 1;
 
 TEST(Status, EveryTroubleHasWordsOfItsOwn) {
   std::set<std::string> words;
@@ -17,6 +18,8 @@ TEST(Status, EveryTroubleHasWordsOfItsOwn) {
     words.insert(text(ModelStatus{static_cast<Trouble>(t), 2, ""}));
   EXPECT_EQ(words.size(), static_cast<std::size_t>(kTroubles));
   EXPECT_EQ(text(ModelStatus{}), "ok");
+  // There is none beyond those that are looked at here.
+  EXPECT_THROW(text(ModelStatus{static_cast<Trouble>(kTroubles), 0, ""}), base::InternalError);
 }
 
 TEST(Status, TheFirstTroubleIsKept) {
@@ -105,6 +108,20 @@ TEST(Status, BreakdownIsSaidBeforeWhatItLeadsTo) {
   r.points[0].relative_humidity = 0.9, r.points[0].oxide_margin = 0.5;
   EXPECT_EQ(r.said(), (std::vector<PointTrouble>{{0.9, {Trouble::Breakdown, 2, ""}}}));
   EXPECT_EQ(r.troubles(), (std::vector<PointTrouble>{{0.9, p.status}}));
+}
+
+// The drive's leaves what was before it; water alone leaves nothing.
+TEST(Status, PastPullInNoNumberIsKnown) {
+  for (int t = 0; t < kTroubles; ++t) {
+    ResponsePoint p;
+    p.status = {static_cast<Trouble>(t), 2, ""};
+    if (!p.status.pull_in()) continue;
+    p.source_voltage = 200;
+    EXPECT_TRUE(p.knows_undriven()) << t;
+    EXPECT_FALSE(p.knows_driven()) << t;
+    p.source_voltage = 0;
+    EXPECT_FALSE(p.knows_undriven() || p.knows_driven()) << t;
+  }
 }
 
 TEST(Status, EveryEndOfASearchForAVoltageHasItsWords) {

@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "steps.h"
+#include "tests/support/thorough.h"
 
 namespace papilla::tests::steps_slow_test {
 namespace {
@@ -41,20 +42,23 @@ TEST(NoCliffs, ASweptNumberOfADesignHasNoStep) {
     return line.design.starts_with("particle_film") || line.key == "texture.period";
   };
   std::vector<Line> sample;
+  const auto every = static_cast<std::size_t>(cases(40, 10));
   std::size_t at = 0;
   for (Line& line : every_number(PAPILLA_DESIGNS_DIR)) {
-    if (!stated(line) && at++ % 10 == 0) sample.push_back(std::move(line));
+    if (!stated(line) && at++ % every == 0) sample.push_back(std::move(line));
   }
-  ASSERT_GE(sample.size(), 20u);
-  expect_no_steps(sample, 50);
+  const auto least = static_cast<std::size_t>(cases(5, 20));
+  ASSERT_GE(sample.size(), least);
+  expect_no_steps(sample, 5 * least / 2);
 }
 
 TEST(NoCliffs, ALineBetweenTwoDesignsHasNoStep) {
+  const int drawn = cases(8, 24);
   std::vector<Line> sample;
-  for (Line& line : random_lines(PAPILLA_DESIGNS_DIR, 24, kWalks[0])) {
+  for (Line& line : random_lines(PAPILLA_DESIGNS_DIR, drawn, kWalks[0])) {
     if (!line.design.starts_with("particle_film")) sample.push_back(std::move(line));
   }
-  expect_no_steps(sample, 30);
+  expect_no_steps(sample, static_cast<std::size_t>(cases(8, 30)));
 }
 
 }  // namespace

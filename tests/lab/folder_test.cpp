@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "base/text.h"
 #include "calibrate/friction_table.h"
 #include "report/lab_folder.h"
+#include "report/lab_trace.h"
 #include "report/lab_words.h"
 #include "tests/cli/program.h"
 #include "tests/lab/small_lab.h"
@@ -461,6 +463,71 @@ TEST_F(LabFolder, RefusesAChoiceThatItsRunDoesNotKnow) {
               Lab(folder_, 1).standing();
             }).find("\"shallow\" is decided among, but worth.json does not say"),
             std::string::npos);
+}
+
+TEST_F(LabFolder, KeepsItsRecordsOfADesignThatIsNoLongerAChoice) {
+  const auto plans = [&] {
+    Lab lab(folder_, 1);
+    return nlohmann::json::parse(lab_state_json(lab))["plans"].dump();
+  };
+  const std::string before = plans();
+  EXPECT_NE(before.find("\"choice\":"), std::string::npos) << before;
+  LabFile lab_file = read_lab_file(folder_);
+  lab_file.designs[0].choice = false;
+  write_text(folder_ + "/lab.toml", lab_file_text(lab_file));
+  EXPECT_EQ(plans(), before);
+  EXPECT_NE(decisions_svg(Lab(folder_, 1)).find("deep, no longer a choice"), std::string::npos);
+  const TellReport told =
+      tell({file("a.csv", std::string(kHead) + "deep,1,0.2,35,200,1,0.06,0.09\n")});
+  EXPECT_NE(told.markdown.find("1 reading told"), std::string::npos) << words(told);
+}
+
+// Of a worth that is minimised: 53.3 mN at every member, not -0.0533.
+TEST_F(LabFolder, SaysAWorthThatIsMinimisedInItsUnit) {
+  RunWorth run{"mean(friction)",
+               {"deep", "shallow"},
+               {std::vector<double>(6, -0.0533), std::vector<double>(6, -0.06)},
+               {std::vector<bool>(6, true), std::vector<bool>(6, true)},
+               {{}, {}}};
+  LabFile lab_file = read_lab_file(folder_);
+  lab_file.worth = run.name;
+  lab_file.worth_file = "worth.json";
+  write_text(folder_ + "/worth.json", run_worth_text(run));
+  write_text(folder_ + "/lab.toml", lab_file_text(lab_file));
+  Lab lab(folder_, 1);
+  const std::string text = lab_standing_text(lab);
+  EXPECT_NE(text.find("worth [mN], 95 %"), std::string::npos) << text;
+  EXPECT_NE(text.find("53.3 (53.3 to 53.3)"), std::string::npos) << text;
+  EXPECT_EQ(text.find("-0.05"), std::string::npos) << text;
+  const auto standing = nlohmann::json::parse(lab_state_json(lab))["standing"];
+  EXPECT_NEAR(standing["best_worth"].get<double>(), 0.0533, 1e-9);
+  EXPECT_NEAR(standing["designs"][1]["worth"].get<double>(), 0.06, 1e-9);
+}
+
+// The film does not stand 2,000 V at any member.
+TEST_F(LabFolder, PlansNoVoltageUnderWhichAMemberHasNoFriction) {
+  NextRun run;
+  run.source.paths = {(place_->path() / "deep.toml").string()};
+  run.source.belief = (place_->path() / "belief.toml").string();
+  run.source.humidity = "35 %";
+  run.source.voltage = "2000 V,0 V";
+  run.folder = folder_ = (own_.path() / "high").string();
+  run.options.date = "2026-03-01";
+  run.options.count = 3;
+  next_in_lab(run);
+  const std::vector<PlannedExperiment> planned = Lab(folder_, 1).planned();
+  EXPECT_FALSE(planned.empty());
+  for (const PlannedExperiment& p : planned)
+    EXPECT_TRUE(!p.experiment.at.driven() || !p.expected_on.empty()) << p.id;
+  // What was measured there all the same is not lost.
+  const TellReport told =
+      tell({file("a.csv", std::string(kHead) + "deep,1,0.2,35,2000,1,0.06,0.09\n")});
+  EXPECT_NE(told.markdown.find("F_on of deep, 35 % RH, 0.2 N, 2000 V, clean is kept and weighs "
+                               "nothing"),
+            std::string::npos)
+      << told.markdown << words(told);
+  ASSERT_EQ(readings(), 1u);
+  EXPECT_EQ(Lab(folder_, 1).readings().front().on, 0.09);
 }
 
 TEST_F(LabFolder, SaysThatNothingFitsIntoItsTime) {

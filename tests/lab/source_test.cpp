@@ -84,6 +84,18 @@ TEST_F(LabSources, DecideAmongTheDesignsOfTheRunWhereverItIsNamed) {
   EXPECT_EQ(opened({"wafer", "run"}).opening.file.fields.back().design, "front/01");
 }
 
+// A wafer has the best of a run with the numbers of its build sheet.
+TEST_F(LabSources, TakeTheRoundedBestOnAWaferForTheChoiceThatItIs) {
+  copy("deep.toml", "run/best/design.toml");
+  const Design built = read_design(path("deep.toml"), {"texture.depth=610 nm"});
+  write_design(path("run/best/build.toml"), built);
+  write_design(path("wafer/designs/deep.toml"), built);
+  const LabOpening lab = opened({"run", "wafer"});
+  EXPECT_EQ(lab.opening.file.fields.back().design, "front/01");
+  EXPECT_TRUE(lab.opening.designs.front().texture == built.texture);  // what is measured
+  EXPECT_EQ(lab.opening.file.designs.size(), 3u);
+}
+
 TEST_F(LabSources, AreRefusedWithASecondRun) {
   write_run("other");
   EXPECT_NE(refusal_of([&] {

@@ -149,6 +149,47 @@ TEST(Record, GivesFrictionBelowTheZeroOfItsSensor) {
   }
 }
 
+// At 10 kHz, strokes of 2 s with 50 mN; under a carrier of 1 kHz and 100 V 60 mN.
+Trace record_with_carrier(int samples, double drive_begins) {
+  Trace t;
+  RandomStream random(1, "record with a carrier");
+  for (int i = 0; i < samples; ++i) {
+    const int direction = (i / 20000) % 2 == 0 ? 1 : -1;
+    const double since = (i % 20000) / 1e4;  // of the stroke [s]
+    const bool on = since >= drive_begins;
+    t.time.push_back(i / 1e4);
+    t.tangential.push_back(direction * (on ? 0.06 : 0.05) * (1 - std::exp(-since / 0.02)) +
+                           2e-4 * random.normal());
+    t.normal.push_back(0.2);
+    t.voltage.push_back(on ? 100 * std::sin(2 * kPi * i / 10 + 0.5) : 0);
+    t.position.push_back(0.01 * (direction > 0 ? since : 2 - since));
+  }
+  return t;
+}
+
+TEST(Record, KeepsFrictionBeforeTheDriveComesOnLateInEveryStroke) {
+  const Trace trace = record_with_carrier(80000, 1);
+  const TraceReading r = read_friction_of(trace, find_sliding(trace), "record.csv");
+  EXPECT_NEAR(r.off, 0.05, 2e-4);
+  EXPECT_NEAR(r.on, 0.06, 2e-4);
+  EXPECT_FALSE(says(r.notes, "there is no modulation"));
+}
+
+TEST(Record, SaysWhetherItIsNeverWithoutTheDrive) {
+  const auto notes = [](double drive_begins) {
+    const Trace trace = record_with_carrier(80000, drive_begins);
+    return read_friction_of(trace, find_sliding(trace), "record.csv").notes;
+  };
+  EXPECT_TRUE(says(notes(0), "never without the drive"));
+  EXPECT_FALSE(says(notes(0.1), "never without the drive"));
+  EXPECT_TRUE(says(notes(0.1), "no steady sliding without the drive"));
+}
+
+// Every 20th sample of it would be at one phase of the carrier: 48 V.
+TEST(Record, SeesTheVoltageAtEveryPhaseOfItsCarrier) {
+  EXPECT_NEAR(find_sliding(record_with_carrier(82000, 0)).voltage, 100, 2);
+}
+
 TEST(Record, SaysWhatItLeftOutAndAssumed) {
   Tribometer t;
   std::string text = t.record();
@@ -241,6 +282,27 @@ TEST(Record, OfAMillionSamplesTakesTwoSecondsAtMost) {
   EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 2.0);
   EXPECT_NEAR(r.off, t.off, 0.01 * t.off);
   EXPECT_LT(picture.size(), 400000u);
+}
+
+TEST(Record, IsDrawnWithItsPlateausAboutTheZeroOfItsSensor) {
+  Tribometer t;
+  t.off = 0.08;
+  t.on = 0.11;
+  t.zero = 0.16;
+  const Trace trace = read_trace(t.record(), "record.csv");
+  const Sliding sliding = find_sliding(trace);
+  const TraceReading r = read_friction_of(trace, sliding, "");
+  EXPECT_NEAR(r.zero, t.zero + t.zero_drift / 2, 1e-3);
+  const std::string svg = trace_svg(trace, sliding, r, "record");
+  const double top = 62, bottom = 212;  // of the first panel
+  int dashes = 0;
+  for (std::size_t at = 0; (at = svg.find("stroke-dasharray", at)) != std::string::npos; ++at) {
+    const double y = std::stod(svg.substr(svg.find(' ', svg.rfind('M', at)) + 1));
+    EXPECT_GT(y, top);
+    EXPECT_LT(y, bottom);
+    ++dashes;
+  }
+  EXPECT_EQ(dashes, 2 * t.strokes);
 }
 
 TEST(Record, IsDrawnWithWhatWasFound) {

@@ -22,8 +22,6 @@ Outcome broken(Values objectives, Values constraints, bool ok = true) {
 // violation a tenth and one.
 TEST(Penalty, IsTheWorstSoFarAndAShareOfTheSpanThatGrowsWithTheViolation) {
   Penalty penalty;
-  EXPECT_EQ(penalty.finite(broken({7, 8}, {3}), 2), (Values{1, 1}));  // nothing known yet
-  EXPECT_EQ(penalty.finite(Outcome{}, 2), (Values{1, 1}));
   EXPECT_EQ(penalty.finite(feasible({2, 30}), 2), (Values{2, 30}));
   EXPECT_EQ(penalty.finite(feasible({6, 10}), 2), (Values{6, 10}));
   EXPECT_EQ(penalty.finite(feasible({4, 20}), 2), (Values{4, 20}));
@@ -42,6 +40,25 @@ TEST(Penalty, IsTheWorstSoFarAndAShareOfTheSpanThatGrowsWithTheViolation) {
   flat.finite(feasible({-5000, 0.25}), 2);
   EXPECT_NEAR(flat.finite(Outcome{}, 2)[0] + 5000, 1.1 * 5e-3, 1e-9);
   EXPECT_NEAR(flat.finite(Outcome{}, 2)[1] - 0.25, 1.1e-6, 1e-12);
+}
+
+// v / (1 + v) while nothing is feasible; what is feasible lies below that for ever, in its order,
+// however large and however much worse than the first.
+TEST(Penalty, GrowsWithTheViolationBeforeAnythingIsFeasible) {
+  Penalty penalty;
+  const auto value = [&](const Outcome& o) { return penalty.finite(o, 1).at(0); };
+  EXPECT_NEAR(value(broken({110}, {3})), 0.75, 1e-12);
+  EXPECT_NEAR(value(broken({140}, {0.1})), 0.1 / 1.1, 1e-12);
+  EXPECT_EQ(value(Outcome{}), 1);
+  EXPECT_EQ(value(feasible({160})), -1);
+  EXPECT_NEAR(value(feasible({152})), -1.05, 1e-12);  // in units of the largest up to the first
+  EXPECT_NEAR(value(feasible({240})), -1 + 0.5 / 1.5, 1e-12);
+  EXPECT_LT(value(feasible({1e9})), 0);
+  EXPECT_NEAR(value(broken({100}, {0.1})), 0.1 / 1.1, 1e-12);  // as before
+  Penalty zero;
+  zero.finite(broken({0}, {1}), 1);
+  EXPECT_EQ(zero.finite(feasible({0}), 1), Values{-1});
+  EXPECT_EQ(zero.finite(feasible({-2}), 1), Values{-3});
 }
 
 SearchProblem square_problem() {
@@ -228,6 +245,27 @@ TEST(Evolutions, AskForAGenerationAtOnce) {
       searcher->tell(told);
     }
   }
+}
+
+// None of the first twelve lies in the band, whose distance is all that leads there.
+TEST(Evolutions, FindABandOfAFiftiethByTheViolation) {
+  SearchProblem p;
+  p.space.dimensions = {{0, 1, {}}};
+  p.constraints = 1;
+  p.evaluations = 60;
+  const auto searcher = make_searcher({"cmaes", ""}, p);
+  std::vector<Evaluation> all;
+  while (all.size() < 60) {
+    std::vector<Evaluation> told;
+    for (const Point& u : searcher->ask())
+      told.push_back({u, broken({100 + u[0]}, {std::abs(u[0] - 0.93) / 0.01 - 1})});
+    ASSERT_FALSE(told.empty()) << all.size();
+    searcher->tell(told);
+    all.insert(all.end(), told.begin(), told.end());
+  }
+  const auto holds = [](const Evaluation& e) { return e.outcome.feasible(); };
+  EXPECT_TRUE(std::none_of(all.begin(), all.begin() + 12, holds));
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), holds));
 }
 
 // The local ones begin at the user's point and go a fifth of the unit cube from it; the global one

@@ -345,6 +345,9 @@ TEST(GapDistribution, OfSharpBandsIsTheirSum) {
   const auto square_of = [&](double u) { return 1 / (square(u + h) + 9e-14); };
   const double open = 0.4 * square_of(4e-6) + 0.3 * square_of(1e-6), near = 0.2 * square_of(1e-8);
   EXPECT_LT(relative(gaps.inverse_square(lossy), 0.1 / (4e-14 + 9e-14) + open + near), 1e-12);
+  const auto part = [&](double u) { return std::complex<double>(u + h, -3e-7) * square_of(u); };
+  const auto parts = 0.1 * part(0) + 0.4 * part(4e-6) + 0.3 * part(1e-6) + 0.2 * part(1e-8);
+  EXPECT_LT(std::abs(gaps.inverse(lossy) - parts), 1e-12 * std::abs(parts));
   EXPECT_LT(relative(gaps.far_inverse_square(lossy, 1e5), open),
             1e-12);  // the band that ends there
   EXPECT_LT(relative(gaps.far_inverse_square(lossy, 0.99e5), 0.4 * square_of(4e-6)), 1e-12);
@@ -414,18 +417,45 @@ TEST(StressDistribution, OfABandFollowsFromItsGaps) {
   gaps.offset = {8e-7};
   gaps.width = {2e-7};
   gaps.wave_number = {1e5};
-  const double h0 = 1e-7, v = 30;
+  const double v = 30;
   const std::vector<double> at{2e-7, 9e-7};
-  const auto points = stress_distribution(gaps, v, h0, at);
-  ASSERT_EQ(points.size(), 2u);
-  for (std::size_t k = 0; k < 2; ++k) {
-    const double u = at[k], stress = kVacuumPermittivity * v * v / (2 * square(u + h0));
-    const double density = cube(u + h0) / (kVacuumPermittivity * v * v) * gaps.density(u);
-    EXPECT_EQ(points[k].gap, u);
-    EXPECT_LT(relative(points[k].stress, stress), 1e-12);
-    EXPECT_LT(relative(points[k].density, density), 1e-12);
-    EXPECT_LT(relative(points[k].per_decade, std::log(10) * square(stress) * density), 1e-12);
+  for (const std::complex<double> h0 :
+       {std::complex<double>(1e-7), std::complex<double>(2e-7, -3e-7)}) {
+    const double re = h0.real(), im = h0.imag();
+    const auto points = stress_distribution(gaps, v, h0, at);
+    ASSERT_EQ(points.size(), 2u);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double u = at[k], size = square(u + re) + square(im);
+      const double stress = kVacuumPermittivity * v * v / (2 * size);
+      const double density =
+          square(size) / (u + re) / (kVacuumPermittivity * v * v) * gaps.density(u);
+      EXPECT_EQ(points[k].gap, u);
+      EXPECT_LT(relative(points[k].stress, stress), 1e-12);
+      EXPECT_LT(relative(points[k].density, density), 1e-12);
+      EXPECT_LT(relative(points[k].per_decade, std::log(10) * square(stress) * density), 1e-12);
+    }
   }
+}
+
+// Eqs. persson.9 and 14 under a skin that conducts: with what the contact takes the stresses add up
+// to the pull.
+TEST(StressDistribution, UnderALossySkinAddsUpToThePull) {
+  GapDistribution gaps;
+  gaps.contact = 0.01;
+  gaps.share = {0.4, 0.59};
+  gaps.offset = {3e-8, 4e-7};
+  gaps.width = {1.5e-8, 2e-7};
+  gaps.wave_number = {1e5, 2e5};
+  const std::complex<double> h0(2e-8, -3e-8);
+  const double v = 30, scale = 0.5 * kVacuumPermittivity * v * v;
+  std::vector<double> at;
+  for (int k = 0; k <= 400; ++k) at.push_back(1e-11 * std::pow(1e6, k / 400.0));
+  const auto points = stress_distribution(gaps, v, h0, at);
+  double sum = gaps.contact * scale / std::norm(h0);
+  for (std::size_t k = 1; k < points.size(); ++k)
+    sum += 0.5 * (points[k].per_decade + points[k - 1].per_decade) *
+           std::log10(points[k - 1].stress / points[k].stress);
+  EXPECT_LT(relative(sum, scale * gaps.inverse_square(h0)), 2e-3);
 }
 
 // Eq. persson.13: from the field of all layers in series to that of the dielectric and the gap.

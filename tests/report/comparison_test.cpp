@@ -91,6 +91,9 @@ TEST(Comparison, IsAPageWithoutScriptsWhoseWordsAreInert) {
       comparison_page(run(place, "one", "200 V", 0), run(place, "two", "150 V", 0.1));
   EXPECT_NE(page.find("Build &lt;design> 01."), std::string::npos);
   EXPECT_NE(page.find("<svg"), std::string::npos);
+  // Frictions of 40 and 60 mN, with the unit and the scale of the tables.
+  EXPECT_NE(page.find(">mean(friction) [mN]</text>"), std::string::npos);
+  EXPECT_NE(page.find(">60</text>"), std::string::npos);
   EXPECT_EQ(page.find("<script"), std::string::npos);
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
 }

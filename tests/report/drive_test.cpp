@@ -168,6 +168,10 @@ TEST(DriveReport, ASwipeByItsStates) {
             "     0.750  full slip                0\n"
             "     1.000  idle                     0\n"
             "driven for 0.625 s of 1.5 s\n");
+  swipe.without_tones = true;
+  EXPECT_TRUE(swipe_text(swipe).starts_with(
+      "\nswipe\nthe current is the carrier's amplitude, in the place of what the tones make of it\n"
+      "         s  state           current mA\n"));
 }
 
 std::vector<std::vector<double>> numbers_in(const std::string& text, const std::string& pattern) {

@@ -118,9 +118,9 @@ TEST(PredictionsReport, HasEachNumberBesideItsExperiment) {
             "haze                                           haze 12.5 %\n"
             "      glass\n");
   EXPECT_EQ(predictions_csv(two),
-            "experiment,condition,quantity,unit,value,se,model,values\n"
-            "pull over voltage,flat; 75 to 150 V,exponent,,2.125,0.0625,,75 V: 1 mN\n"
-            "haze,glass,haze,%,12.5,0,,\n");
+            "experiment,condition,quantity,unit,value,se,model,values,model_note\n"
+            "pull over voltage,flat; 75 to 150 V,exponent,,2.125,0.0625,,75 V: 1 mN,\n"
+            "haze,glass,haze,%,12.5,0,,,\n");
   EXPECT_TRUE(
       predictions_markdown(two, "mine")
           .ends_with(
@@ -142,6 +142,7 @@ TEST(PredictionsReport, HasEachNumberBesideItsExperiment) {
                                                      {"value", 2.125},
                                                      {"se", 0.0625},
                                                      {"model", nullptr},
+                                                     {"model_note", ""},
                                                      {"beside", "75 V: 1 mN"}},
                                                     {{"id", "haze"},
                                                      {"condition", "glass"},
@@ -150,6 +151,7 @@ TEST(PredictionsReport, HasEachNumberBesideItsExperiment) {
                                                      {"value", 12.5},
                                                      {"se", 0},
                                                      {"model", nullptr},
+                                                     {"model_note", ""},
                                                      {"beside", ""}}}}});
 }
 

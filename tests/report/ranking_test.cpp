@@ -162,6 +162,13 @@ TEST(RankingReport, TheRadarHasTheBestOnItsRim) {
   EXPECT_NE(svg.find(">mean(friction):low<"), std::string::npos);
 }
 
+TEST(RankingReport, TheRadarTakesNamesAsText) {
+  Ranked r;
+  r.names = {"hard", "fine & <smooth>"};
+  const std::string svg = radar_svg(r.names, r.options, r.ranking.states[0]);
+  EXPECT_NE(svg.find(">1. fine &amp; &lt;smooth>"), std::string::npos) << svg;
+}
+
 TEST(RankingReport, ALineADesignHasEachNumberUnderItsHead) {
   Ranked r;
   const std::string columns =

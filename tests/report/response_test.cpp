@@ -259,6 +259,14 @@ TEST(ResponseReport, ForProgramsEveryQuantityIsUnderItsName) {
   for (const char* name : {"mean_modulation", "variation", "range", "worst", "std"})
     EXPECT_TRUE(numberless["summary"][name].is_null()) << name;
   EXPECT_FALSE(numberless["summary"]["mean_friction"].is_null());
+  Response closed = r;
+  closed.points[0].status = {Trouble::GrowingPullIn, 0, ""};
+  closed.points[0].source_voltage = 400;
+  const auto jumped = nlohmann::json::parse(response_json(closed));
+  EXPECT_TRUE(jumped["points"][0]["status"].get<std::string>().starts_with("pull-in: "));
+  EXPECT_TRUE(jumped["points"][0]["modulation"].is_null());
+  EXPECT_TRUE(jumped["summary"]["mean_modulation"].is_null());
+  EXPECT_FALSE(jumped["points"][0]["F_off"].is_null());
   broken.points[0].area_fraction_off.value = 1.5;  // full contact under the load alone
   const auto full = nlohmann::json::parse(response_json(broken));
   EXPECT_TRUE(full["points"][0]["F_off"].is_null() && full["summary"]["mean_friction"].is_null());

@@ -12,6 +12,7 @@
 
 #include "base/constants.h"
 #include "base/files.h"
+#include "base/folder.h"
 #include "base/text.h"
 #include "report/decision.h"
 #include "report/grounds.h"
@@ -22,6 +23,7 @@
 #include "report/run_json.h"
 #include "report/sheet.h"
 #include "report/stated_number.h"
+#include "report/tables.h"
 #include "report/yield.h"
 #include "tests/report/same_json.h"
 #include "tests/support/golden.h"
@@ -444,6 +446,48 @@ TEST(BuildSheet, OfAVoltageThatIsFoundNamesIt) {
   EXPECT_EQ(json["beside"].back()["text"], drive);
   EXPECT_EQ(json["compared"]["names"].size(), 1u);
   EXPECT_EQ(json["compared"]["rows"][0]["values"].size(), 1u);
+  run.result.stability = {};
+  const std::string page = as_read(run_summary(run.files()));
+  EXPECT_EQ(page.find("worst modulation"), std::string::npos) << page;
+  EXPECT_NE(page.find("`best/` is front/01: the best in worst(voltage_for(modulation = 0.3)).\n"),
+            std::string::npos)
+      << page;
+  // Nor do the tables have it.
+  run.folder = temporary("voltage");
+  std::filesystem::create_directories(run.folder);
+  for (FinalDesign& d : run.result.finalists) d.on_front = false;
+  run.result.finalists[0].confirmed.ok = false;  // no folder to write
+  run.history.evaluations = {{run.result.finalists[1].unit, {true, "", {170}, {-1}, {}}}};
+  run.history.worst = {0.26};
+  run.result.hypervolumes = {0.125};
+  run.result.interrupted = true;
+  write_results(run.files());
+  const Folder folder(run.folder);
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(read_csv(folder, "history.csv").texts("worst modulation"), Texts{""});
+  EXPECT_EQ(read_csv(folder, "pareto.csv").texts("worst modulation"), (Texts{"", ""}));
+}
+
+// Scenarios may fix humidity and drive.
+TEST(BuildSheet, IsJudgedInTheAirAndUnderTheDriveOfItsScenarios) {
+  Study study = holes();
+  study.scenarios = {{"dry", 1, {{"drive.amplitude", 150}}},
+                     {"damp", 1, {{"environment.relative_humidity.2", 0.85}}}};
+  Searched run(study);
+  std::string said = as_read(join_names(grounds(run.files()), "\n"));
+  EXPECT_NE(said.find(" at 15 to 85 % relative humidity under 0.2 N, driven with 150 V (peak) at 5 "
+                      "kHz and 200 V (peak) at 5 kHz."),
+            std::string::npos)
+      << said;
+  EXPECT_EQ(as_read(run_json(run.files()))["beside"].back()["text"],
+            "150 V (peak) at 5 kHz and 200 V (peak) at 5 kHz");
+  study.scenarios = {{"off", 1, {{"drive.amplitude", 0}}}, {"on", 1, {}}};
+  study.objective = {};
+  study.objective.minimise = {parse_metric("mean(friction)"), parse_metric("variation(friction)")};
+  const Searched off(study);
+  said = as_read(join_names(grounds(off.files()), "\n"));
+  EXPECT_NE(said.find("driven with no voltage and 200 V (peak) at 5 kHz."), std::string::npos)
+      << said;
 }
 
 TEST(BuildSheet, ADirectVoltageHasNoFrequency) {

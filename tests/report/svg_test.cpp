@@ -187,6 +187,23 @@ TEST(SvgPictures, FrictionOverHumidityWithTwoStandardErrors) {
   EXPECT_NE(response_svg(r, "").find("width=\"460\""), std::string::npos);
 }
 
+// A state that is not there has no mark: after breakdown, that under the drive.
+TEST(SvgPictures, OfNoStateNothingIsDrawn) {
+  Response r;
+  r.driven = true;
+  for (const bool breaks : {false, true}) {
+    ResponsePoint p;
+    p.relative_humidity = breaks ? 0.6 : 0.2;
+    p.friction_off.value = 0.1;
+    p.friction_on.value = 0.3;
+    if (breaks) p.oxide_margin = 0.5;
+    r.points.push_back(p);
+  }
+  ASSERT_FALSE(r.points[1].knows_driven());
+  // Off at both; on and modulation at the first; the names of the first two.
+  EXPECT_EQ(matches(response_svg(r, ""), "<circle").size(), 2u + 1 + 1 + 2);
+}
+
 TEST(SvgPictures, AFrontIsWhatItsTablesHold) {
   const std::filesystem::path folder = temporary("front");
   std::filesystem::create_directories(folder);

@@ -206,6 +206,17 @@ TEST(WholePictures, AFrontIsAPlotForEachObjectiveBesideTheFirst) {
       .series = {points("confirmed, dominated", "#7a4fa3", 4.5, {8}, {2}, {0}, {0.125}),
                  points("front, confirmed", "#1f6f9f", 4.5, {7, 9}, {1, 4}, {0.25, 0}, {0.5, 0})}};
   EXPECT_EQ(front_svg(folder), svg_picture({down, third}));
+  // In the units that the run says people read.
+  write_bytes(folder / "run.json", R"({"shown": {"down": {"scale": 1000, "unit": "mN"}}})");
+  SvgPlot scaled = down;
+  scaled.x = "down [mN]";
+  for (SvgSeries& s : scaled.series) {
+    for (auto* values : {&s.x, &s.ex}) {
+      for (double& v : *values) v *= 1000;
+    }
+  }
+  EXPECT_EQ(front_svg(folder), svg_picture({scaled, third}));
+  std::filesystem::remove(folder / "run.json");
   // All on the front and no history: that series alone.
   write_bytes(folder / "pareto.csv", "a,a se,b,b se,on front\n1,0,2,0,yes\n");
   std::filesystem::remove(folder / "history.csv");

@@ -120,5 +120,14 @@ TEST(Touch, ActsOnWhatTheStateLeavesInBalanceWithTheAir) {
   EXPECT_EQ(out.applied(), out);  // nothing more to apply
 }
 
+TEST(Touch, OfAnotherFingerIsItsLoadStateAndTime) {
+  Finger finger, other;
+  finger.skin.rms = 123e-9;
+  other.load = 1, other.state = FingerState::Wet, other.touch_time = 30;
+  Finger expected = finger;
+  expected.load = 1, expected.state = FingerState::Wet, expected.touch_time = 30;
+  EXPECT_EQ(finger.touching_as(other), expected);
+}
+
 }  // namespace
 }  // namespace papilla::tests::hydration_test

@@ -52,6 +52,28 @@ TEST(MeasuredTable, ReadsTheColumnsOfCalibrateAndOtherUnits) {
   EXPECT_EQ(m.notes[0], "columns that are not read: photo");
 }
 
+// Its unit in the head is the column's; without one its cells say theirs.
+TEST(MeasuredTable, ReadsRelativeHumidityInTheUnitOfItsHead) {
+  const auto of_head = [](const std::string& head, const std::string& cell) {
+    return "design," + head + ",load_N,F_off_N\nflat," + cell + ",0.2,0.1\n";
+  };
+  for (const char* head : {"humidity_percent", "relative_humidity_percent", "relative_humidity [%]",
+                           "relative_humidity (percent)"}) {
+    const MeasuredTable t = table(of_head(head, "35"));
+    EXPECT_DOUBLE_EQ(*t.rows[0].relative_humidity, 0.35) << head;
+    EXPECT_TRUE(t.has("humidity")) << head;
+    EXPECT_TRUE(says(refused(of_head(head, "0.9")), "is it a share? Then 90 % is meant")) << head;
+    EXPECT_TRUE(says(refused(of_head(head, "101")), "lies outside")) << head;
+  }
+  for (const char* cell : {"0.35", "35 %"})
+    EXPECT_DOUBLE_EQ(*table(of_head("relative_humidity", cell)).rows[0].relative_humidity, 0.35);
+  EXPECT_TRUE(
+      says(refused(of_head("relative_humidity_mN", "35")),
+           "\"mN\" is no unit of a plain number or a percentage; write relative_humidity_percent"));
+  EXPECT_TRUE(says(refused(of_head("humidity_percent,relative_humidity_percent", "35,35")),
+                   "a second column of the same quantity"));
+}
+
 TEST(MeasuredTable, RefusesWrongUnitsWithTheWayOut) {
   const std::string head = "design,load_N,humidity_percent,voltage_V,F_off_N,F_on_N\n";
   EXPECT_TRUE(says(refused("design,load,humidity_percent,F_off_N\nflat,0.2,35,0.1\n"),

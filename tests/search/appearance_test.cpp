@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
 #include "report/response.h"
 #include "search/problem.h"
 #include "search/task.h"
@@ -54,6 +55,44 @@ TEST(AppearanceInStudies, ALimitOnHazeHoldsBeforeAnEvaluation) {
   EXPECT_EQ(violation("80 nm").second, "");
   EXPECT_GT(violation("550 nm").first, 0);
   EXPECT_EQ(violation("550 nm").second.substr(0, 4), "haze");
+}
+
+// A viewer meets the design in the scenarios alone: the plate of the study's own file, of 30 %, in
+// none of them. Of two plates the hazier one counts, of plates within their scatter too.
+TEST(AppearanceInStudies, ALimitOnHazeIsForTheViewsOfTheScenarios) {
+  Study study = transparent_glass({"texture.depth=\"80 nm\""});
+  const auto haze = [&](double inner) {
+    Design design = study.design;
+    design.view.inner_haze = inner;
+    return appearance_of(design).haze;
+  };
+  study.design.view.inner_haze = 0.3;
+  study.constraints = {read_constraint("haze", 0.5 * (haze(0.01) + haze(0.3)))};
+  study.scatter = {{"texture.depth", 1e-9}};
+  const auto look = [&] {
+    const StudyProblem problem(study);
+    return problem.constraints().look(problem.space().unit_of_study()).at(0);
+  };
+  const auto share = [&] {
+    const StudyProblem problem(study);
+    const Scoring scoring{problem.goals(), problem.tasks(), problem.nominal_tasks(),
+                          ScatterLaw(study.scatter, study.correlations),
+                          study.design.environment.weights};
+    Score score;
+    score.by_task.resize(problem.tasks().size());
+    for (LimitedNumbers& of : score.by_task) of.oxide_margin = kInfinity;
+    return YieldModel(study, problem.constraints(), scoring).share(study.design, score, 16).share;
+  };
+  EXPECT_GT(look(), 0);
+  EXPECT_EQ(share(), 0);
+  study.scenarios = {{"clear", 1, {{"view.inner_haze", 0}}},
+                     {"hazy", 1, {{"view.inner_haze", 0.01}}},
+                     {"never", 0, {{"view.inner_haze", 0.9}}}};
+  EXPECT_NEAR(look(), violation(study.constraints[0], haze(0.01)), 1e-9);
+  EXPECT_LT(look(), 0);
+  EXPECT_EQ(share(), 1);
+  const StudyProblem problem(study);
+  EXPECT_EQ(problem.constraints().geometry_reason(problem.space().unit_of_study()), "");
 }
 
 TEST(AppearanceInStudies, APeriodThatNoTheoryCoversIsOutsideTheSpace) {

@@ -183,6 +183,27 @@ TEST(Sheet, ATextureThatAloneKeepsALimitIsWorthBuilding) {
       << report::as_read(recommendation(files));
 }
 
+// The finish gains nothing but that a limit is kept.
+TEST(Sheet, AFinishThatAloneKeepsALimitNamesTheLimit) {
+  const Study study = holes();
+  const StudyProblem problem(study);
+  OptimiseResult result = one_design(problem);
+  result.flat = score(0.6, 0.2, 2.5);
+  result.flat_before = score(0.6, 0.2, 1.5);
+  const JudgedDesigns history;
+  const ResultFiles files{"", study, problem, history, result, ""};
+  EXPECT_EQ(advice_of(problem, result), Advice::Finish);
+  const std::string said = report::as_read(recommendation(files));
+  EXPECT_NE(said.find("): the study's own surface breaks a limit (oxide_breakdown_margin is 1.5, "
+                      "below your limit of 2); no texture of this search adds more"),
+            std::string::npos)
+      << said;
+  result.flat_before = score(0.4, 0.1, 1.5);
+  const std::string both = report::as_read(recommendation(files));
+  EXPECT_NE(both.find("): that gains mean(modulation) +0.20"), std::string::npos) << both;
+  EXPECT_NE(both.find(" and costs variation(modulation) +0.10"), std::string::npos) << both;
+}
+
 // At a lower bound a widening goes the other way than a step up.
 TEST(Findings, TheSlopeAtALowerBoundIsTakenDownwards) {
   const Study study = holes();

@@ -10,6 +10,8 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "report/limits.h"
+#include "report/stated_number.h"
 #include "search/problem.h"
 #include "tests/support/without_belief.h"
 
@@ -107,6 +109,20 @@ TEST(Constraints, OfAStudyAreKeptByItsOwnDesign) {
   const StudyProblem problem(study);
   for (const double v : problem.constraints().geometry(problem.space().unit_of_study()))
     EXPECT_LE(v, 0);
+}
+
+TEST(Constraints, ReadAsBrokenWhereTheyAre) {
+  const Constraint wall = read_constraint("min_wall", 0.4e-6);
+  EXPECT_EQ(report::as_read(report::limit_broken({wall, 0.39999e-6})),
+            "min_wall is 0.39999 um, below your limit of 0.4 um");
+  EXPECT_EQ(limit_value_text(wall, 0.4e-6 * (1 - 1e-10)), "0.4 um");  // kept
+  EXPECT_EQ(limit_value_text(wall, 0.40001e-6), "0.4 um");
+  EXPECT_EQ(limit_value_text(wall, 0.123456e-6), "0.1235 um");
+  const Constraint ratio = read_constraint("aspect_ratio", 1.23456);
+  EXPECT_EQ(limit_text(ratio), "at most 1.23456");
+  EXPECT_EQ(limit_value_text(ratio, 1.2346), "1.235");
+  EXPECT_EQ(limit_value_text(ratio, 1.23454), "1.2345");  // 1.235 would be above it
+  EXPECT_EQ(limit_value_text(ratio, 0.87654), "0.8765");
 }
 
 TEST(Constraints, HaveAValueOfEachDesign) {

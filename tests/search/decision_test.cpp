@@ -251,6 +251,40 @@ TEST(Decision, AsksForNoMeasurementOfWhatIsSure) {
   EXPECT_EQ(said.find("To be surer"), std::string::npos) << said;
 }
 
+// The third member answers for none: what the others say is all that is said of the best.
+TEST(Decision, SaysWhatShareOfBeliefHasNoAnswer) {
+  const TaskFormula silent = [](const TaskRequest& r) {
+    TaskAnswer out = overturning(r);
+    if (r.stage == Stage::Belief)
+      out.members[2] = TaskAnswer::refused(TaskStatus::Kind::NotDefined, "no voltage");
+    return out;
+  };
+  const BelievingRun a(believing(0.3), "decision_silent", silent);
+  const Decision& d = a.decision();
+  ASSERT_TRUE(d.made()) << d.absent;
+  double all = 0;
+  for (const Prospect& p : d.designs) {
+    all += p.p_best;
+    for (std::size_t k = 0; k < p.p_limit.size(); ++k) {
+      const bool of_shape = std::holds_alternative<ShapeLimit>(a.study.constraints[k].on);
+      EXPECT_NEAR(p.p_limit[k], of_shape ? 1 : 0.7, 1e-12) << limit_name(a.study.constraints[k].on);
+    }
+  }
+  EXPECT_NEAR(all, 1, 1e-12);
+  const char* const said =
+      " At 1 of these members (30 % of belief) no design of the front has an answer: ";
+  EXPECT_NE(grounds_of(a).find(said), std::string::npos) << grounds_of(a);
+  const std::string text = report::as_read(report::decision_text(a.files()));
+  EXPECT_NE(text.find(said), std::string::npos) << text;
+  EXPECT_NE(text.find("\"emission\" (30 % of belief) no design of the front has an answer."),
+            std::string::npos)
+      << text;
+  EXPECT_NEAR(report::decision_json(a.files())["belief_without_answer"].get<double>(), 0.3, 1e-12);
+  const BelievingRun told(0.3, "decision_told");
+  EXPECT_FALSE(report::decision_json(told.files()).contains("belief_without_answer"));
+  EXPECT_EQ(grounds_of(told).find("has an answer"), std::string::npos);
+}
+
 TEST(Decision, TheRiskOfTheStudyDecides) {
   Study study = believing(0.3);
   study.risk.belief = "worst 10 %";
@@ -448,6 +482,37 @@ TEST(Decision, AMemberMovesSizesByAFactorAndSpreadsByADifference) {
   EXPECT_NEAR(f.few[3].score.worst, 0.2, 1e-12);
   EXPECT_FALSE(f.few[2].score.ok);
   EXPECT_TRUE(f.few[0].by_skin.empty());  // no skins are known
+}
+
+// Of a member the yield is asked once; as a skin or the few skins move it, it is only compared.
+TEST(Decision, AYieldIsDrawnOfEachMemberOnce) {
+  Study study = believing(0.3);
+  study.scatter = {{"texture.depth", 20e-9}};
+  study.constraints = {read_constraint("min_wall", 1e-9), read_constraint("yield", 0.9)};
+  const StudyProblem problem(study);
+  TaskAnswer there = at(0, 0, 0.3);
+  there.worst_samples = {0.27, 0.33};
+  FinalDesign f;
+  f.design = study.design;
+  f.answers.assign(problem.tasks().size(), at(0, 0, 0.4));
+  f.confirmed = problem.score(f.design, f.answers);
+  TaskAnswer few;
+  few.members = {there, there, there, at(0, 0, 0.2)};
+  add_members(problem, {few}, f);
+  ASSERT_EQ(f.members.size(), 3u);
+  for (const Score& member : f.members) {
+    ASSERT_TRUE(member.ok) << member.reason;
+    EXPECT_TRUE(member.yield.has_value());
+  }
+  ASSERT_EQ(f.few.size(), 4u);
+  EXPECT_EQ(f.few[0].by_skin.size(), 2u);
+  for (const SkinnedScore& alone : f.few) {
+    EXPECT_TRUE(alone.score.ok);
+    EXPECT_FALSE(alone.score.yield.has_value());
+    for (const Score& moved : alone.by_skin) EXPECT_FALSE(moved.yield.has_value());
+  }
+  const MemberWorth worth = member_worth(problem, {f}, decision_rule(problem, ""), {});
+  EXPECT_NEAR(worth.worth.at(0).at(0), 0.4 * 0.3 / 0.2, 1e-12);
 }
 
 // A skin moves a member by what it moves of its worst modulation alone.

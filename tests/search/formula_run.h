@@ -18,9 +18,9 @@ using TaskFormula = std::function<TaskAnswer(const TaskRequest&)>;
 
 class FormulaWorker : public Team {
  public:
-  FormulaWorker(TaskFormula formula, std::vector<TaskRequest>& asked)
-      : formula_(std::move(formula)), asked_(asked) {}
-  std::size_t size() const override { return 1; }
+  FormulaWorker(TaskFormula formula, std::vector<TaskRequest>& asked, std::size_t workers = 1)
+      : formula_(std::move(formula)), asked_(asked), workers_(workers) {}
+  std::size_t size() const override { return workers_; }
   std::vector<WorkAnswer> answer(const std::vector<Bytes>& requests,
                                  const std::atomic<bool>* stop) override {
     std::vector<WorkAnswer> out;
@@ -35,6 +35,7 @@ class FormulaWorker : public Team {
  private:
   TaskFormula formula_;
   std::vector<TaskRequest>& asked_;
+  std::size_t workers_;
 };
 
 struct FormulaRun {

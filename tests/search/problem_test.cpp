@@ -94,12 +94,50 @@ TEST(Tasks, KeepWhatTheStudyVariesOfTheFinger) {
   EXPECT_EQ(task_design(study, design, tasks[0]).finger.load, 0.3);
 }
 
+// A scenario gives the surface without a texture none: it is one surface in all of them.
+TEST(Tasks, OfAFlatSurfaceHaveNoTextureOfAScenario) {
+  Study study = oxide_study();
+  study.population.resize(1);
+  study.scenarios = {{"new", 1, {}}, {"worn", 1, {{"texture.depth", 100e-9}}}};
+  study.scatter = {{"texture.depth", 20e-9}};
+  const std::vector<StudyTask> tasks = study_tasks(study);
+  const auto depth = [&](std::size_t t, bool flat) {
+    const Design d = task_design(study, study.design, tasks[t], flat);
+    return std::get<HoleArray>(d.texture.kind).depth;
+  };
+  EXPECT_EQ(depth(1, false), 100e-9);
+  for (std::size_t t = 0; t < tasks.size(); ++t) EXPECT_EQ(depth(t, true), 1e-12) << tasks[t].name;
+}
+
+// What every scenario sets tells no designs apart; what some set is said once.
+TEST(Tasks, OfScenariosThatSetWhatIsSearchedAreRefusedOrSaid) {
+  Study study = oxide_study();
+  study.population.resize(1);
+  study.scenarios = {{"new", 1, {}}, {"worn", 1, {{"texture.depth", 100e-9}}}};
+  EXPECT_EQ(refusal(study), "");
+  const std::string said =
+      "texture.depth of the design space counts for nothing where a scenario sets it: \"worn\"";
+  const auto times = [&] {
+    const std::vector<std::string> all = unused_of(study);
+    return std::count(all.begin(), all.end(), said);
+  };
+  EXPECT_EQ(times(), 1);
+  study.scenarios[1].set[0].path = "texture.height";  // another kind's word for it
+  EXPECT_EQ(times(), 1);
+  study.scenarios[0].weight = 0;
+  EXPECT_NE(refusal(study).find("\"worn\" sets texture.depth, which design_space varies"),
+            std::string::npos)
+      << refusal(study);
+  study.scenarios[0] = {"new", 1, {{"texture.depth", 300e-9}}};
+  EXPECT_NE(refusal(study).find("set texture.depth"), std::string::npos) << refusal(study);
+}
+
 // What counts for nothing is not evaluated, so that it cannot fail either.
 TEST(Tasks, OfAScenarioWithoutWeightAreNone) {
   Study study = oxide_study();
   study.population.resize(1);
   study.population[0].name = "one";
-  study.scenarios = {{"new", 0, {}}, {"worn", 2, {{"surface.contact_angle", 1.2}}}};
+  study.scenarios = {{"new", 0, {}}, {"worn", 2, {{"finger.load", 0.3}}}};
   EXPECT_EQ(names_of(study_tasks(study)), Names{"one, worn"});
 }
 

@@ -211,10 +211,31 @@ TEST(Prospects, ADesignWithoutAnAnswerIsTheLeastOfTheOthersThere) {
   const std::vector<Prospect> p = prospects(worth_of({0.5, 0.5}, {{3, none}, {1, 2}, {2, 1}}), {});
   EXPECT_NEAR(p[0].regret, 0.5 * (2 - 1), 1e-12);
   EXPECT_NEAR(p[0].p_limits, 0.5, 1e-12);
-  // A member at which no design has one says nothing.
-  const std::vector<Prospect> q = prospects(worth_of({0.5, 0.5}, {{3, none}, {1, none}}), {});
-  EXPECT_NEAR(q[0].p_best, 0.5, 1e-12);
-  EXPECT_NEAR(q[1].regret, 1, 1e-12);
+}
+
+// Probabilities, regrets and worths are of the others; a limit that needs no answer is kept there.
+TEST(Prospects, AreOverTheMembersThatTellDesignsApart) {
+  const double none = std::nan("");
+  MemberWorth d = worth_of({0.2, 0.5, 0.3}, {{3, none, 1}, {1, none, 2}});
+  d.kept = {{{true, true, true}, {true, false, true}}, {{true, true, true}, {true, false, true}}};
+  EXPECT_NEAR(known_share(d), 0.5, 1e-12);
+  const std::vector<Prospect> p = prospects(d, {});
+  EXPECT_NEAR(p[0].p_best, 0.4, 1e-12);
+  EXPECT_NEAR(p[1].p_best, 0.6, 1e-12);
+  EXPECT_NEAR(p[0].regret, 0.6 * (2 - 1), 1e-12);
+  EXPECT_NEAR(p[1].regret, 0.4 * (3 - 1), 1e-12);
+  EXPECT_NEAR(best_worth(d), 0.4 * 3 + 0.6 * 2, 1e-12);
+  EXPECT_NEAR(p[0].p_limit[0], 1, 1e-12);
+  EXPECT_NEAR(p[0].p_limit[1], 0.5, 1e-12);
+  EXPECT_NEAR(p[0].p_limits, 0.5, 1e-12);
+  EXPECT_NEAR(prospects(d, parse_belief_risk("mean"))[1].merit, 0.4 * 1 + 0.6 * 2, 1e-12);
+  // Members without any answer overturn nothing.
+  const std::vector<Reversal> found = by_group(d, {}, 0.4, {{"silent", {1}}, {"last", {1, 2}}});
+  EXPECT_EQ(found[0].best, chosen(p, 0.4));
+  EXPECT_EQ(found[0].known, 0);
+  EXPECT_NEAR(found[1].weight, 0.8, 1e-12);
+  EXPECT_NEAR(found[1].known, 0.3, 1e-12);
+  EXPECT_NEAR(prospects(worth_of({1}, {{none}, {none}}), {})[0].p_limits, 1, 1e-12);
 }
 
 TEST(Prospects, TheRiskDecidesWhatIsChosen) {

@@ -131,6 +131,31 @@ TEST(Scores, LimitsTakeTheWorstTaskThatCounts) {
   EXPECT_EQ(values[4].value, 100);
 }
 
+// Where no drive is applied there is no modulation, which is not the lowest one.
+TEST(Scores, TheWorstModulationIsThatOfDrivenScenarios) {
+  Study study = weighted_study();
+  study.objective = {};
+  study.objective.minimise = {parse_metric("mean(friction)")};
+  study.constraints.clear();
+  const auto worst = [&](std::vector<double> of) {
+    const StudyProblem problem(study);
+    std::vector<TaskAnswer> answers(2, answer(problem, {0.2, 0.4}));
+    for (std::size_t t = 0; t < 2; ++t) answers[t].worst = of[t];
+    const Score score = problem.score(study.design, answers);
+    return std::pair{problem.driven(), score.worst};
+  };
+  EXPECT_EQ(worst({0.3, 0.2}), std::pair(true, 0.2));
+  study.scenarios[1].set = {{"drive.amplitude", 0}};
+  EXPECT_EQ(worst({0.3, 0}), std::pair(true, 0.3));
+  study.scenarios[0].set = {{"drive.amplitude", 0}};
+  EXPECT_EQ(worst({0, 0}), std::pair(false, 0.0));
+  // Searched, it is driven but where a scenario turns it off.
+  study.scenarios[0].set.clear();
+  study.design.drive.amplitude = 0;
+  study.variables.push_back({"drive.amplitude", "V", 0, 100, {}});
+  EXPECT_EQ(worst({0.3, 0}), std::pair(true, 0.3));
+}
+
 // Of a model that is linear in every variable the slopes come back, in SI and with their sign; a
 // tenth of the way that costs half a value costs a twentieth of it.
 TEST(Slopes, OfALinearModelAreItsOwn) {

@@ -6,14 +6,19 @@
 
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <set>
 #include <tuple>
 
+#include "base/files.h"
 #include "base/watch.h"
 #include "search/advice.h"
 #include "search/building.h"
 #include "search/levels.h"
+#include "search/records.h"
+#include "search/rounding.h"
 #include "tests/search/formula_run.h"
 #include "tests/search/small_study.h"
 
@@ -59,7 +64,7 @@ struct AnsweredRun {
   AnsweredRun(const Study& of, const std::string& folder, const Formula& formula,
               bool resume = false, const std::atomic<bool>* stop = nullptr,
               std::function<void(const Progress&)> progress = {}, bool finish = false,
-              const std::string& pick = "")
+              const std::string& pick = "", std::size_t workers = 1)
       : study(of),
         options{.folder = folder,
                 .resume = resume,
@@ -67,7 +72,7 @@ struct AnsweredRun {
                 .stop = stop,
                 .pick = pick,
                 .finish = finish},
-        run(study, options, mpi, std::make_unique<FormulaWorker>(formula, asked)) {}
+        run(study, options, mpi, std::make_unique<FormulaWorker>(formula, asked, workers)) {}
   AnsweredRun(const AnsweredRun&) = delete;
   AnsweredRun& operator=(const AnsweredRun&) = delete;
 
@@ -94,6 +99,14 @@ struct AnsweredRun {
   Requests asked;
   Run run;
 };
+
+// As one level says of a design.
+search::Judgement judged_at(Stage stage, const search::Run& run, const Formula& formula,
+                            const Point& unit) {
+  const Score score =
+      run.problem.score(run.problem.space().design(unit), {formula({stage, 0, false, unit})});
+  return {run.problem.outcome(score), score.worst};
+}
 
 // One that several tests read.
 const AnsweredRun& whole_run() {
@@ -501,6 +514,56 @@ TEST(Stages, ASearchThatKnowsEveryChoiceIsExhausted) {
   }
 }
 
+// Of three choices a population has each many times.
+Study three_choices() {
+  Study study = two_variables();
+  const double own = study.design.surface.contact_angle;
+  study.variables = {study.variables[1]};
+  study.variables[0].choices = {own, own + 0.2, own + 0.4};
+  study.search.method = "nsga2";
+  study.search.evaluations = 60;
+  return study;
+}
+TaskAnswer chosen_lines(const TaskRequest& r) {
+  return lines({r.stage, r.task, false, {0.5, r.unit[0]}});
+}
+
+TEST(Stages, ADesignThatIsAskedOfAgainIsJudgedOnce) {
+  const std::string folder = fresh_folder("stages_once");
+  for (const bool again : {false, true}) {
+    AnsweredRun a(three_choices(), folder, chosen_lines, again);
+    ASSERT_TRUE(a.whole());
+    EXPECT_EQ(a.count(Stage::Search), again ? 0 : 3);
+    EXPECT_EQ(a.run.result.end, SearchEnd::Exhausted);
+    EXPECT_EQ(a.run.result.evaluations, 3);
+    EXPECT_EQ(a.run.history.size(), 3u);
+  }
+}
+
+// The journal of a search that judged a design each time is gone on with as it was begun.
+TEST(Stages, ASearchThatJudgedDesignsAgainGoesOn) {
+  Study study = three_choices();
+  study.search.evaluations = 15;
+  const std::string path = fresh_folder("stages_again");
+  std::size_t first = 0;
+  {
+    AnsweredRun none(study, path, chosen_lines);
+    const std::vector<Point> asked = make_searcher(none.run.method, none.run.search)->ask();
+    first = asked.size();
+    std::filesystem::remove(std::filesystem::path(path) / kJournalName);
+    Journal journal(Folder::made(path), kJournalName, journal_key(none.run.problem), false);
+    for (const Point& unit : asked)
+      journal.append({encode(TaskRequest{Stage::Search, 0, false, unit}),
+                      encode(judged_at(Stage::Search, none.run, chosen_lines, unit))});
+  }
+  ASSERT_GT(first, 3u);
+  ASSERT_LT(first, 15u);
+  AnsweredRun second(study, path, chosen_lines, true);
+  search_designs(second.run);
+  EXPECT_EQ(second.run.result.evaluations, 15);
+  EXPECT_EQ(second.asked.size(), 15 - first);
+}
+
 // On fresh skins every film is too weak: one more than the finalists is confirmed, none twice, and
 // the least bad is what there is.
 TEST(Stages, WhereNothingHoldsSaferDesignsAreConfirmed) {
@@ -549,10 +612,85 @@ TEST(Stages, ASaferDesignThatHoldsIsFound) {
     EXPECT_TRUE(!f.on_front || f.feasible);
   }
   EXPECT_TRUE(result.finalists.front().on_front);
-  // The last one asked of is it, unless the confirmation had to search itself.
-  if (result.finalists.size() < kFinalists + 1) {
-    EXPECT_GE(a.asked.back().unit[1], 0.5);
+}
+
+// A study of one number and one objective.
+Study of_one(const Variable& variable) {
+  Study study = two_variables();
+  study.variables = {variable};
+  study.objective = {};
+  return study;
+}
+
+// An amplitude from 20 V to 250 V, as low as a worst modulation of .5 allows: 125 V, where the
+// levels below say 122.5 V. All designs of the level between but one lie in that gap.
+TEST(Stages, AFarDesignThatHoldsDoesNotEndTheConfirmation) {
+  constexpr double kPerSquaredVolt = 3.2e-5, kLimit = 0.5;
+  const auto volts = [](double u) { return 20 + 230 * u; };
+  const auto unit = [](double v) { return Point{(v - 20) / 230}; };
+  const Formula formula = [&](const TaskRequest& r) {
+    const double v = volts(r.unit[0]);
+    TaskAnswer out;
+    out.worst = kPerSquaredVolt * v * v + (r.stage == Stage::Confirm ? 0 : 0.02);
+    out.objectives = {{v, 0.01, {v, v}}};
+    out.limited = {out.worst};
+    out.limited_errors = {0};
+    out.oxide_margin = 10;
+    return out;
+  };
+  Study study = of_one(two_variables().variables[1]);
+  study.objective.minimise = {parse_metric("mean(friction)")};
+  study.constraints = {read_constraint("worst(modulation)", kLimit)};
+  for (const bool searched_between : {false, true}) {
+    AnsweredRun a(study, fresh_folder("stages_far"), formula);
+    std::vector<double> searched{20, 66, 112, 158, 204, 250};
+    if (searched_between) searched.push_back(135);
+    for (const double v : searched)
+      a.run.add_to_history(unit(v), judged_at(Stage::Search, a.run, formula, unit(v)));
+    for (const double v : {122.6, 122.8, 123.0, 123.3, 123.6, 124.0, 124.5, 250.0})
+      a.run.narrowed.add(unit(v), judged_at(Stage::Narrow, a.run, formula, unit(v)));
+    confirm(a.run);
+    // The best that the search knows of those that keep the tightened limit.
+    ASSERT_GE(a.asked.size(), 2u);
+    EXPECT_LT(volts(a.asked[0].unit[0]), 125);
+    EXPECT_NEAR(volts(a.asked[1].unit[0]), searched_between ? 135 : 158, 1e-9);
+    const std::vector<FinalDesign>& finalists = a.run.result.finalists;
+    EXPECT_LE(finalists.size(), kFinalists + 1);
+    ASSERT_TRUE(finalists.front().on_front);
+    EXPECT_LE(finalists.front().confirmed.values[0], 1.1 * std::sqrt(kLimit / kPerSquaredVolt));
   }
+}
+
+// The best by the model, and of the raw numbers the luckiest, which a fab draws as the same.
+TEST(Stages, OfTwoDesignsThatAreDrawnAlikeOneIsConfirmed) {
+  Study study = of_one(two_variables().variables[0]);
+  study.variables[0].low = 20e-9;
+  study.variables[0].high = 300e-9;
+  study.objective.maximise = {parse_metric("mean(modulation)")};
+  const Point lucky{0.04 / 280};  // 20.04 nm
+  const Formula formula = [&](const TaskRequest& r) {
+    const double value = 1 - 0.5 * r.unit[0] + (r.unit == lucky ? 0.01 : 0);
+    TaskAnswer out;
+    out.objectives = {{value, 0.01, {value, value}}};
+    out.worst = value;
+    out.oxide_margin = 10;
+    return out;
+  };
+  AnsweredRun a(study, fresh_folder("stages_alike"), formula);
+  for (const Point& unit :
+       {Point{0}, lucky, Point{0.2}, Point{0.4}, Point{0.6}, Point{0.8}, Point{1}}) {
+    const search::Judgement judgement = judged_at(Stage::Narrow, a.run, formula, unit);
+    a.run.add_to_history(unit, judgement);
+    a.run.narrowed.add(unit, judgement);
+  }
+  confirm(a.run);
+  std::set<double> drawn;
+  for (const FinalDesign& f : a.run.result.finalists) {
+    const double depth = a.run.problem.space().value(f.unit)[0];
+    EXPECT_TRUE(drawn.insert(on_grid(study.variables[0], depth, study.search.rounding)).second)
+        << depth;
+  }
+  EXPECT_EQ(drawn.size(), 1u);
 }
 
 // A failure is an evaluation, and no refusal.
@@ -694,6 +832,38 @@ TEST(Stages, DraftsSteerAndAreNoEvaluations) {
   EXPECT_EQ(a.run.history.size(), 8u);
   EXPECT_EQ(a.run.result.evaluations, 8);
   EXPECT_EQ(a.run.replay.evaluated(), 8);
+}
+
+// The clock leaves four drafts of each of two rounds, and one evaluation. With more time, and
+// however many workers, the search goes on from there.
+TEST(Stages, RoundsOfDraftsThatTheClockCutAreGoneOnFrom) {
+  Study study = two_variables();
+  study.search.drafts = 15;
+  study.search.time = 1e-6;
+  const std::string cut = fresh_folder("stages_cut_drafts");
+  {
+    AnsweredRun a(study, cut, lines);
+    search_designs(a.run);
+    EXPECT_EQ(a.count(Stage::Draft), 8);
+    EXPECT_EQ(a.count(Stage::Search), 1);
+  }
+  study.search.time = 0;
+  const auto journal = [](const std::string& folder) {
+    return read_bytes(std::filesystem::path(folder) / kJournalName);
+  };
+  std::set<std::string> journals;
+  for (const std::size_t workers : {1u, 3u}) {
+    const std::string folder = fresh_folder("stages_more_drafts" + std::to_string(workers));
+    std::filesystem::copy(cut, folder, std::filesystem::copy_options::recursive);
+    AnsweredRun a(study, folder, lines, true, nullptr, {}, false, "", workers);
+    search_designs(a.run);
+    EXPECT_EQ(a.count(Stage::Draft), 0);
+    EXPECT_EQ(a.count(Stage::Search), 14);
+    EXPECT_EQ(a.run.result.evaluations, 15);
+    EXPECT_TRUE(journal(folder).starts_with(journal(cut)));
+    journals.insert(journal(folder));
+  }
+  EXPECT_EQ(journals.size(), 1u);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tests/search/direct_plates.h"
+#include "tests/support/thorough.h"
 
 namespace papilla::tests::yield_slow_test {
 namespace {
@@ -12,12 +13,12 @@ namespace {
 TEST(Yield, IsThatOfPlatesEvaluatedOneByOne) {
   const JudgedYield judged(yield_cases().front());
   const Yield yield = judged.by_the_ends();
-  EXPECT_NEAR(judged.direct(2000), yield.now.share, 0.03);
+  EXPECT_NEAR(judged.direct(cases(600, 2000)), yield.now.share, 0.03);
   ASSERT_TRUE(yield.costliest().has_value());
-  constexpr int kFew = 400;
+  const int few = cases(120, 400);
   std::vector<double> halved;
   for (std::size_t k = 0; k < yield.halved.size(); ++k)
-    halved.push_back(judged.direct(kFew, k, 0.5));
+    halved.push_back(judged.direct(few, k, 0.5));
   EXPECT_EQ(std::max_element(halved.begin(), halved.end()) - halved.begin(),
             static_cast<std::ptrdiff_t>(*yield.costliest()));
 }

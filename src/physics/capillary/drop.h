@@ -7,6 +7,7 @@
 
 #include "base/constants.h"
 #include "base/rooms.h"
+#include "fields/wetting.h"
 #include "geometry/grid.h"
 
 namespace papilla::capillary {
@@ -18,6 +19,8 @@ struct Drop {
   double edge_gap = 0, edge_slope = 0;  // a bridge: mean gap on the rim [m], its slope outward [-]
   double energy = 0;                    // [J]
   double film = 0;                      // share of film, once settled
+  double footprint = 0, height = 0;     // a cap [m]
+  DropletState side = DropletState::OnSubstrate;  // of a cap
   bool bridge = false;
   bool alive = true;
 };

@@ -38,8 +38,11 @@ DropEnergy::DropEnergy(const Gap& gap, const WaterProperties& water, double gap_
   fit_meniscus();
   // A drop whose centre sees a gap (per volume^(1/3)) well beyond the largest at which a flat
   // bridge has the lower energy is not worth trying as a bridge.
-  rupture_ = exact_->valid() ? exact_->limits().rupture : 2;
-  const double favoured = exact_->valid() ? exact_->limits().switching : 1;
+  const BridgeLimits& limits = exact_->limits();
+  const bool none = limits.status == BridgeStatus::Converged && limits.rupture == 0;  // at any gap
+  const bool known = exact_->valid() || none;
+  rupture_ = known ? limits.rupture : 2;
+  const double favoured = known ? limits.switching : 1;
   reach_ = std::max(1.3 * favoured, cap_.height);
 }
 
@@ -190,6 +193,9 @@ Drop DropEnergy::placed(double x, double y, double volume, const BridgeGuess& gu
   }
   d.bridge = false;
   d.radius = cap_.widest * size;
+  d.footprint = cap_.footprint * size;
+  d.height = cap_.height * size;
+  d.side = cap_state_;
   d.edge_gap = d.edge_slope = 0;
   d.energy = cap;
   return d;

@@ -44,8 +44,7 @@ class DropEnergy {
   std::array<double, 8> gaps_around(const Drop& drop, double step) const {  // [m], kDirections
     return table_.around(drop.x, drop.y, step);
   }
-  const CapShape& cap() const { return cap_; }           // of volume 1, where drops do not bridge
-  DropletState cap_state() const { return cap_state_; }  // on which side they sit
+  DropletState cap_state() const { return cap_state_; }  // on which side caps sit
   long evaluations() const { return evaluations_; }      // of a bridge's energy
 
  private:
@@ -66,11 +65,11 @@ class DropEnergy {
   WaterProperties water_;
   double gain_, cos_skin_;
   std::shared_ptr<const BridgeTable> exact_;
-  CapShape cap_;
+  CapShape cap_;  // of volume 1
   DropletState cap_state_;
   double meniscus_ = 0;                 // factor of a level gap
   std::array<double, 4> tilt_terms_{};  // its powers of the slope angle over kLargestTilt
-  double rupture_ = 0;  // gap per volume^(1/3) beyond which no flat bridge is stable
+  double rupture_ = 0;  // gap per volume^(1/3) beyond which no flat bridge is stable; 0: none is
   double reach_ = 0;    // and beyond which none is worth trying
   long evaluations_ = 0;
   // Of the last volume, bridge and radius: the same drop is asked for at many places.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "physics/capillary/film.h"
 
@@ -29,7 +30,8 @@ class WettingBuilder {
         water_(water),
         options_(options),
         energy_(energy),
-        drops_(drops) {}
+        drops_(drops),
+        force_(drops.size(), 0.0) {}
 
   Wetting build(double volume, double wicked) {
     Wetting out;
@@ -62,15 +64,17 @@ class WettingBuilder {
     return any;
   }
 
-  void add_discs(Wetting& out) const {
+  void add_discs(Wetting& out) {
     double wet = out.wetted_fraction * grid_.area();
-    for (const Drop& d : drops_) {
+    for (std::size_t i = 0; i < drops_.size(); ++i) {
+      const Drop& d = drops_[i];
       if (!d.alive) continue;
-      out.droplets.push_back(reported(d));
-      if (!d.bridge || d.film > 0) continue;
-      const Droplet& bridge = out.droplets.back();
+      const bool disc = d.bridge && !(d.film > 0);
+      if (disc) force_[i] = energy_.force(d);
+      out.droplets.push_back(reported(d, force_[i]));
+      if (!disc) continue;
       ++out.bridges;
-      out.capillary_force += bridge.force;
+      out.capillary_force += force_[i];
       out.bridge_volume += d.volume;
       out.retention += energy_.retention(d);
       wet += kPi * square(d.radius);
@@ -79,7 +83,7 @@ class WettingBuilder {
     out.wetted_fraction = std::min(1.0, wet / grid_.area());
   }
 
-  Droplet reported(const Drop& d) const {
+  static Droplet reported(const Drop& d, double force) {
     Droplet out;
     out.x = d.x;
     out.y = d.y;
@@ -92,12 +96,11 @@ class WettingBuilder {
       out.radius = d.radius;
       out.height = d.volume / area;
       out.edge_gap = d.edge_gap;
-      out.force = d.film < 1 ? (1 - d.film) * energy_.force(d) : 0;
+      out.force = force;
     } else {
-      const double size = std::cbrt(d.volume);
-      out.state = d.film > 0 ? DropletState::Bridge : energy_.cap_state();
-      out.radius = energy_.cap().footprint * size;
-      out.height = energy_.cap().height * size;
+      out.state = d.film > 0 ? DropletState::Bridge : d.side;
+      out.radius = d.footprint;
+      out.height = d.height;
     }
     return out;
   }
@@ -153,7 +156,7 @@ class WettingBuilder {
       int drop, source;
     };
     std::vector<Joined> joined;
-    const FilmRegions films =
+    FilmRegions films =
         grow_films(gap_, from.sources, from.seeds, water_, [&](std::size_t k, int source) {
           const int i = from.owner[k];
           if (i < 0 || drops_[i].film > 0) return 0.0;
@@ -171,29 +174,40 @@ class WettingBuilder {
       out.retention += region.share * region.retention;
       area += region.share * region.area;
     }
-    const auto add_disc = [&](const Drop& d, double share) {  // what of it is still a disc
+    const auto add_disc = [&](int i, double share) {  // what of it is still a disc
+      const Drop& d = drops_[i];
       if (!d.bridge || share <= 0) return;
-      out.capillary_force += share * energy_.force(d);
+      force_[i] = share * energy_.force(d);
+      out.capillary_force += force_[i];
       out.retention += share * energy_.retention(d);
       area += share * kPi * square(d.radius);
     };
     for (std::size_t s = 0; s < from.sources.size(); ++s) {
-      add_disc(drops_[from.drop[s]], 1 - from.sources[s].share);
+      add_disc(from.drop[s], 1 - from.sources[s].share);
     }
     for (const Joined& j : joined) {
-      add_disc(drops_[j.drop], 1 - films.regions[films.of_source[j.source]].share);
+      add_disc(j.drop, 1 - films.regions[films.of_source[j.source]].share);
     }
     out.wetted_fraction = area / grid_.area();
-    mark_pixels(films, out);
+    mark_pixels(std::move(films), out);
   }
 
-  static void mark_pixels(const FilmRegions& films, Wetting& out) {
+  void mark_pixels(FilmRegions films, Wetting& out) const {
+    std::vector<double> pixels(films.regions.size(), 0.0);
     out.film.assign(films.source.size(), FilmPixel::None);
-    for (std::size_t k = 0; k < films.source.size(); ++k) {
-      if (films.source[k] == 0) continue;
-      const FilmRegion& region = films.regions[films.of_source[films.source[k] - 1]];
+    out.film_region = std::move(films.source);
+    for (std::size_t k = 0; k < out.film.size(); ++k) {
+      int& place = out.film_region[k];  // until now that of its source
+      if (place == 0) continue;
+      const int region = films.of_source[place - 1];
+      place = region + 1;
+      ++pixels[region];
       out.bridged[k] = 1;
-      out.film[k] = region.share < 1 ? FilmPixel::OnItsWay : FilmPixel::Film;
+      out.film[k] = films.regions[region].share < 1 ? FilmPixel::OnItsWay : FilmPixel::Film;
+    }
+    for (std::size_t r = 0; r < pixels.size(); ++r) {
+      const FilmRegion& region = films.regions[r];
+      out.film_pressure.push_back(region.share * region.force / (pixels[r] * grid_.pixel_area()));
     }
   }
 
@@ -203,6 +217,7 @@ class WettingBuilder {
   const DropletOptions& options_;
   const DropEnergy& energy_;
   std::vector<Drop>& drops_;
+  std::vector<double> force_;  // of each drop, of what of it is a disc [N]
 };
 
 }  // namespace

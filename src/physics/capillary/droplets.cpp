@@ -15,6 +15,12 @@ namespace papilla::capillary {
 
 namespace {
 
+// Of a cap: at its foot or, where it is more than half a sphere, around its middle [m].
+double widest_radius(const Droplet& cap) {
+  return cap.height > cap.radius ? 0.5 * (square(cap.radius) / cap.height + cap.height)
+                                 : cap.radius;
+}
+
 // A droplet as it is found on another gap.
 Drop rewetted(const Droplet& d, DropEnergy& energy) {
   Drop drop;
@@ -24,7 +30,10 @@ Drop rewetted(const Droplet& d, DropEnergy& energy) {
     drop.x = d.x;
     drop.y = d.y;
     drop.volume = d.volume;
-    drop.radius = d.radius;
+    drop.radius = widest_radius(d);
+    drop.footprint = d.radius;
+    drop.height = d.height;
+    drop.side = d.state;
     drop.energy = d.energy;
   }
   drop.film = d.film;
@@ -97,8 +106,10 @@ Wetting settle_droplets(const Gap& gap, double volume, const WaterProperties& wa
 Wetting rewet(const Wetting& wetting, const Gap& gap, const WaterProperties& water,
               const DropletOptions& options) {
   if (wetting.status == WettingStatus::Dry) return wetting;
-  // Flooded, or threshold water.
-  if (wetting.droplets.empty()) return fill_threshold(gap, wetting.volume, water);
+  if (wetting.droplets.empty()) {
+    if (wetting.status == WettingStatus::Discs) return wetting;  // all of it is in corners
+    return fill_threshold(gap, wetting.volume, water);           // flooded, or threshold water
+  }
   DropEnergy energy(gap, water, options.gap_floor);
   std::vector<Drop> placed;
   for (const Droplet& d : wetting.droplets) placed.push_back(rewetted(d, energy));
@@ -121,10 +132,8 @@ DropletBand droplet_band(double water_per_area, double mean_gap, double bridge_s
 Traction capillary_traction(const Wetting& wetting, const Gap& gap, const WaterProperties&) {
   const Grid& g = gap.grid;
   Traction out{g, std::vector<double>(g.size(), 0.0)};
-  double remaining = wetting.capillary_force;  // once the discs have theirs: the film's
   for (const Droplet& d : wetting.droplets) {
-    if (d.state != DropletState::Bridge || d.film > 0) continue;
-    remaining -= d.force;
+    if (d.state != DropletState::Bridge || d.force == 0) continue;
     const Disc disc{d.x, d.y, d.radius};
     std::size_t count = 0;
     for_pixels(g, disc, [&](std::size_t) { ++count; });
@@ -135,13 +144,9 @@ Traction capillary_traction(const Wetting& wetting, const Gap& gap, const WaterP
       out.value[pixel_of(g, d.x, d.y)] += d.force / g.pixel_area();
     }
   }
-  double count = 0;
-  for (FilmPixel pixel : wetting.film) count += pixel != FilmPixel::None;
-  if (count > 0) {
-    const double pressure = remaining / (count * g.pixel_area());
-    for (std::size_t k = 0; k < g.size(); ++k) {
-      out.value[k] += wetting.film[k] != FilmPixel::None ? pressure : 0.0;
-    }
+  for (std::size_t k = 0; k < wetting.film_region.size(); ++k) {
+    const int region = wetting.film_region[k];
+    if (region > 0) out.value[k] += wetting.film_pressure[static_cast<std::size_t>(region - 1)];
   }
   return out;
 }

@@ -67,7 +67,8 @@ Wetting settle_droplets(const Gap& gap, double volume, const WaterProperties& wa
 
 // The same water at the same places on another gap or with other contact angles (electrowetting):
 // bridges get their radius, force and energy anew; droplets that do not bridge float and keep their
-// shape, unless the skin now touches them. Discs that now overlap merge.
+// shape and side, unless the skin now touches them. Discs that now overlap merge. Water in corners
+// stays there.
 Wetting rewet(const Wetting& wetting, const Gap& gap, const WaterProperties& water,
               const DropletOptions& options = {});
 
@@ -80,8 +81,9 @@ struct DropletBand {
 // 15 to 75 % RH; good to a factor 2). water_per_area and mean_gap [m], bridge_share of the water.
 DropletBand droplet_band(double water_per_area, double mean_gap, double bridge_share);
 
-// Eq. capillary.10: the force of every bridge (or the film) as a pressure over its pixels [Pa]; the
-// sum times the pixel area is capillary_force. A bridge smaller than a pixel acts on the nearest.
+// Eq. capillary.10: the force of every bridge and of every region of a film as a pressure over its
+// pixels [Pa]; the sum times the pixel area is capillary_force. A bridge smaller than a pixel acts
+// on the nearest.
 Traction capillary_traction(const Wetting& wetting, const Gap& gap, const WaterProperties& water);
 
 }  // namespace papilla::capillary

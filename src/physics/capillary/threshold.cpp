@@ -89,14 +89,25 @@ Wetting fill_threshold(const Gap& gap, double bridge_volume, const WaterProperti
   film.height = (more - less) / (filling.level(more).pixels - filling.level(less).pixels);
   film.area = level.pixels * g.pixel_area();
   film.wet.resize(g.size());
-  for (std::size_t i = 0; i < g.size(); ++i) film.wet[i] = gap.value[i] <= level.height ? 1 : 0;
+  // Of equal gaps at the level those with the lowest numbers, as many as hold the rest.
+  double rest = std::ceil(level.pixels);
+  for (double h : gap.value) rest -= h < level.height;
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    const bool last = gap.value[i] == level.height && rest > 0;
+    rest -= last;
+    film.wet[i] = gap.value[i] < level.height || last;
+  }
   measure_film(gap, water, film);
   out.status = WettingStatus::Film;
   out.bridged = std::move(film.wet);
   out.film.resize(out.bridged.size());
+  double pixels = 0;
   for (std::size_t i = 0; i < out.film.size(); ++i) {
     out.film[i] = out.bridged[i] ? FilmPixel::Film : FilmPixel::None;
+    pixels += out.bridged[i];
   }
+  out.film_region.assign(out.bridged.begin(), out.bridged.end());  // of one pressure
+  out.film_pressure = {film.force / (pixels * g.pixel_area())};
   out.bridges = film.regions;
   out.wetted_fraction = film.area / g.area();
   out.capillary_force = film.force;

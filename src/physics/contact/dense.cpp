@@ -91,11 +91,16 @@ class DenseSolver {
         tolerance_(tolerance),
         max_iterations_(max_iterations) {}
 
-  // From the pressure of the state, with any mean. without: the gap function without pressure, or
-  // empty. Every step's transform is added to the gap function, which so stays that of the pressure
-  // to rounding, and the certificate is that of the pressure returned.
+  // From the pressure of the state, with any mean and beyond the cap where the start is that of a
+  // coarser grid or another cap. without: the gap function without pressure, or empty. Every step's
+  // transform is added to the gap function, which so stays that of the pressure to rounding, and
+  // the certificate is that of the pressure returned.
   void solve(RealArray without) {
-    if (!fields_.problem.approach) fields_.scale_to_load();
+    if (fields_.problem.approach) {
+      for (double& v : fields_.p) v = std::min(v, fields_.cap);
+    } else {
+      fields_.scale_to_load();
+    }
     fields_.start(std::move(without));
     listed_.begin();
     choose_lists_or_fields();

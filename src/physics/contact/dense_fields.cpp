@@ -98,7 +98,15 @@ double DenseFields::certificate() {
   if (load <= 0) return low < shift ? kInfinity : 0;  // given approach, nothing touches yet
   double pressed = work;
   double least = low * load;
-  if (std::isfinite(cap)) {  // the cheapest pressure fills the lowest pixels to the cap
+  if (problem.approach) {  // Eq. contact.10
+    pressed -= load * shift;
+    least = 2 * std::min(0.0, least - load * shift);
+    if (std::isfinite(cap)) {  // no pixel can gain more than the cap on it does
+      least = std::max(least, cap * sum_over(gap.size(), [&](auto at) {
+                                return smaller(at(gap) - shift, 0.0);
+                              }));
+    }
+  } else if (std::isfinite(cap)) {  // the cheapest pressure fills the lowest pixels to the cap
     sorted_.assign(gap.begin(), gap.end());
     const auto whole = std::min(sorted_.size() - 1, static_cast<std::size_t>(load / cap));
     std::nth_element(sorted_.begin(), sorted_.begin() + static_cast<std::ptrdiff_t>(whole),
@@ -106,10 +114,6 @@ double DenseFields::certificate() {
     least = 0;
     for (std::size_t i = 0; i < whole; ++i) least += cap * sorted_[i];
     least += (load - cap * static_cast<double>(whole)) * sorted_[whole];
-  }
-  if (problem.approach) {  // Eq. contact.10
-    pressed -= load * shift;
-    least = 2 * std::min(0.0, least - load * shift);
   }
   return std::max(0.0, pressed - least) / (load * problem.spread);
 }

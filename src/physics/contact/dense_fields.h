@@ -32,7 +32,7 @@ struct DenseFields {
   // Rigid shift at t of the step: the mean gap function of the pixels between the bounds, sum /
   // count. Given the approach, the load instead.
   void set_shift(double sum, double count, double t);
-  // Frank-Wolfe gap over load and height spread. Eq. contact.4
+  // Frank-Wolfe gap over load and height spread. Eq. contact.4, contact.10
   double certificate();
   // Gaps and work of the state, in one pass.
   void close_gaps();

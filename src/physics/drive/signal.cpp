@@ -77,6 +77,7 @@ Signal source_signal(Waveform waveform, double amplitude, double frequency,
   PAPILLA_CHECK(modulation.frequency.size() == modulation.amplitude.size(),
                 "one amplitude per frequency");
   Signal out{period, std::vector<double>(std::bit_ceil(samples))};
+  constexpr double kRounding = 1e-9;  // of a turn: an edge early by one sample would be a mean
   const double depth =
       std::accumulate(modulation.amplitude.begin(), modulation.amplitude.end(), 0.0);
   for (std::size_t i = 0; i < out.value.size(); ++i) {
@@ -84,7 +85,7 @@ Signal source_signal(Waveform waveform, double amplitude, double frequency,
     const double wave = std::sin(2 * kPi * frequency * t);
     double v = amplitude;
     if (waveform == Waveform::Sine) v *= wave;
-    if (waveform == Waveform::Square) v *= std::fmod(frequency * t, 1.0) < 0.5 ? 1 : -1;
+    if (waveform == Waveform::Square) v *= std::fmod(frequency * t + kRounding, 1.0) < 0.5 ? 1 : -1;
     if (waveform == Waveform::Am) {
       v *= wave * std::pow(std::max(0.0, (1 + modulation.at(t)) / (1 + depth)), exponent);
     }

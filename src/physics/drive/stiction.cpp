@@ -82,7 +82,6 @@ double LowPass::operator()(double value) {
 
 std::vector<RubbingSample> rub(const RubbingFinger& finger, const StictionOptions& options,
                                const std::function<double(double)>& limit) {
-  constexpr int kSubsteps = 50;  // of Dahl's law, in a step of the machine
   StictionMachine machine(options);
   std::vector<LowPass> filter;
   if (finger.filter > 0) filter.emplace_back(finger.filter, options.step);
@@ -92,10 +91,12 @@ std::vector<RubbingSample> rub(const RubbingFinger& finger, const StictionOption
   for (int i = 0; i < steps; ++i) {
     const double time = i * options.step;
     const double next = finger.stroke * std::sin(2 * kPi * finger.frequency * time);
-    const double step = (next - place) / kSubsteps, most = limit(current);
+    const double moved = next - place, most = limit(current);
     place = next;
-    for (int k = 0; k < kSubsteps; ++k)
-      force += finger.stiffness * step * (1 - force / most * (step > 0 ? 1 : -1));
+    // Dahl's law as it is solved where the limit is constant, as in a step of the machine.
+    const double full = std::copysign(most, moved);
+    force =
+        most > 0 ? full + (force - full) * std::exp(-finger.stiffness * std::abs(moved) / most) : 0;
     const double felt = filter.empty() ? force : filter.front()(force);
     current = machine.update(felt, finger.load);
     out.push_back({time, place, force, machine.state(), current});

@@ -68,7 +68,8 @@ struct RubbingSample {
   SlipState state;
   double current;  // from then on [A]
 };
-// limit: friction at full slip under a current [A] -> [N]. One sample a step of the options.
+// limit: friction at full slip under a current [A] -> [N], 0: nothing rubs. One sample a step of
+// the options; no force is beyond the largest limit so far, whatever the stiffness.
 std::vector<RubbingSample> rub(const RubbingFinger& finger, const StictionOptions& options,
                                const std::function<double(double)>& limit);
 

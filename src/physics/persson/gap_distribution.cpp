@@ -61,10 +61,12 @@ void folded_nodes(double offset, double width, double scale, double least, doubl
 
 // Mean over bands 0..count of a distribution, their share below `least` spread over the rest.
 template <class Function>
-double band_sum(const GapDistribution& gaps, std::size_t count, double scale, Function&& f) {
-  double sum = 0, kept = 0, total = 0;
+auto band_sum(const GapDistribution& gaps, std::size_t count, double scale, Function&& f) {
+  decltype(f(0.0)) sum = 0;
+  double kept = 0, total = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    double share = 0, band = 0;
+    double share = 0;
+    decltype(sum) band = 0;
     folded_nodes(gaps.offset[i], gaps.width[i], scale, gaps.smallest_gap, share,
                  [&](double u, double weight) { band += weight * f(u); });
     sum += gaps.share[i] * band;
@@ -72,6 +74,12 @@ double band_sum(const GapDistribution& gaps, std::size_t count, double scale, Fu
     total += gaps.share[i];
   }
   return kept > 0 ? sum * total / kept : 0.0;
+}
+
+template <class Thickness>
+Thickness mean_inverse(const GapDistribution& gaps, Thickness h0) {
+  return gaps.contact / h0 +
+         band_sum(gaps, gaps.share.size(), std::abs(h0), [&](double u) { return 1.0 / (u + h0); });
 }
 
 }  // namespace
@@ -123,8 +131,10 @@ std::size_t GapDistribution::far_bands(double q) const {
   return count;
 }
 
-double GapDistribution::inverse(double h0) const {
-  return contact / h0 + band_sum(*this, share.size(), h0, [&](double u) { return 1 / (u + h0); });
+double GapDistribution::inverse(double h0) const { return mean_inverse(*this, h0); }
+
+std::complex<double> GapDistribution::inverse(std::complex<double> h0) const {
+  return mean_inverse(*this, h0);
 }
 
 double StepResponse::relaxation_time(double u) const {
@@ -144,7 +154,8 @@ double StepResponse::pull(const GapDistribution& gaps, double voltage, double t)
   return 0.5 * kVacuumPermittivity * (gaps.contact * square(field(voltage, 0, t)) + open);
 }
 
-std::vector<StressPoint> stress_distribution(const GapDistribution& gaps, double v_rms, double h0,
+std::vector<StressPoint> stress_distribution(const GapDistribution& gaps, double v_rms,
+                                             std::complex<double> h0,
                                              std::span<const double> at_gaps) {
   std::vector<StressPoint> points;
   points.reserve(at_gaps.size());
@@ -152,8 +163,9 @@ std::vector<StressPoint> stress_distribution(const GapDistribution& gaps, double
   for (const double u : at_gaps) {
     StressPoint point{};
     point.gap = u;
-    point.stress = pressure / square(u + h0);
-    point.density = 0.5 * cube(u + h0) / pressure * gaps.density(u);
+    const double squared = std::norm(u + h0);
+    point.stress = pressure / squared;
+    point.density = 0.5 * square(squared) / (u + h0.real()) / pressure * gaps.density(u);
     point.per_decade = std::log(10.0) * square(point.stress) * point.density;
     points.push_back(point);
   }

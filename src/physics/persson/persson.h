@@ -84,7 +84,10 @@ struct GapDistribution {
   // that lost contact below wave number q (no contact): the far field of patches.
   double inverse_square(std::complex<double> h0) const;
   double far_inverse_square(std::complex<double> h0, double q) const;
-  double inverse(double h0) const;  // mean of 1/(u + h0) [1/m]: capacitance per area over eps0
+  // Mean of 1/(u + h0) [1/m], contact included: capacitance per area over eps0, under layers that
+  // conduct admittance per area over -i w eps0.
+  double inverse(double h0) const;
+  std::complex<double> inverse(std::complex<double> h0) const;
   // The gaps that far_inverse_square takes, as gaps [m] with their shares of the area: of each band
   // the nodes of its rule, for what varies over `scale` [m] > 0 near gap 0. Every gap is kept.
   void visit_far(double scale, double q,
@@ -135,8 +138,9 @@ class MeanField {
   std::shared_ptr<const std::vector<double>> gap_table_;  // F of Eq. persson.7
 };
 
-// The spectrum after plastic flattening at hardness yield [Pa] under a pressure: its elastic
-// contact area equals elastic plus yielded area. Eq. persson.10
+// The spectrum after plastic flattening at hardness yield [Pa] under a pressure > 0 below it: its
+// elastic contact area equals elastic plus yielded area. Fewer than two knots where next to nothing
+// stays elastic at any scale. Eq. persson.10
 PowerSpectrum plastic_smoothing(const PowerSpectrum& spectrum, const MeanFieldSolid& solid,
                                 double yield, double pressure, double kappa = 2);
 // Shares of the nominal area in elastic and in yielded contact when the stress measure is M.
@@ -203,7 +207,8 @@ struct StepResponse {
 struct StressPoint {
   double gap, stress, density /*1/Pa*/, per_decade /*stress x contribution: ln10 s^2 P*/;
 };
-std::vector<StressPoint> stress_distribution(const GapDistribution& gaps, double v_rms, double h0,
+std::vector<StressPoint> stress_distribution(const GapDistribution& gaps, double v_rms,
+                                             std::complex<double> h0,
                                              std::span<const double> at_gaps);
 
 }  // namespace papilla::persson

@@ -22,14 +22,19 @@ const finalists = csv(data.pareto), history = csv(data.history);
 const heads = data.pareto.split('\n')[0].split(',');
 const objectives = heads.filter((h) => heads.includes(h + ' se'));
 const variables = heads.slice(1, heads.indexOf(objectives[0]));
-// One objective of an undriven surface has nothing to be traded for.
-const second = objectives[1] || (data.run.driven ? 'worst modulation' : objectives[0]);
+// Of voltages that are found, and without a drive, the tables have none.
+const hasWorst = finalists.concat(history).some((r) => r['worst modulation'] !== '');
+// One objective without it has nothing to be traded for.
+const second = objectives[1] || (hasWorst ? 'worst modulation' : objectives[0]);
 const label = (name) => name === 'best' ? (data.picked ? 'picked' : 'best') : name.replace('front/', 'design ');
 const describe = (row) => variables.map((v) => {
   const unit = / \[(.*)\]$/.exec(v);
   return row[v] === '' ? '' : `${v.replace(/ \[.*/, '').replace(/^[a-z]+\./, '')} ${entry(row[v])}${unit ? ' ' + unit[1] : ''}`;
 }).filter(Boolean);
-const state = { design: 'best', finger: 'mean' };
+// Scenarios may have humidities of their own: a mean over all is of tasks that share theirs.
+const air = (task) => JSON.stringify(task.points.map((p) => p.relative_humidity));
+const sameAir = data.designs.best.tasks.every((t) => air(t) === air(data.designs.best.tasks[0]));
+const state = { design: 'best', finger: sameAir ? 'mean' : '0' };
 const run = data.run;
 // Objectives in the units that people read: forces in mN.
 const shownAs = (name) => (run.shown || {})[name] || { scale: 1, unit: '' };
@@ -96,7 +101,7 @@ function showPareto() {
 function showFinalists() {
   // Keys and kinds break where people read a break, not inside words.
   const breaking = (text) => String(text).replace(/([._(])(?=[a-z])/g, '$1\u200b');
-  const columns = ['design'].concat(variables, objectives, run.driven ? ['worst modulation'] : [], ['feasible']);
+  const columns = ['design'].concat(variables, objectives, hasWorst ? ['worst modulation'] : [], ['feasible']);
   const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : quantity({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' model'] }, c)) : c === 'design' || c === 'feasible' || r[c] === '' ? r[c] : breaking(entry(r[c]));
   const heading = (c) => breaking(called(c));
   const body = table($('finalists'), columns.map(heading), finalists.map((r) => columns.map((c) => value(r, c))), columns.map((c, i) => i).slice(1, -1));
@@ -255,7 +260,7 @@ function showDesign() {
   const lead = (d.flat || {}).difference || {};
   table($('numbers'), ['Result', label(state.design), 'flat', 'difference'],
     Object.keys(d.objectives).map((name) => [called(name), quantity(d.objectives[name], name), flat ? quantity(flat.objectives[name], name) : '–', quantity(lead[name], name)])
-      .concat(run.driven ? [['worst modulation', round(d.worst_modulation), flat ? round(flat.worst_modulation) : '–', '']] : [])
+      .concat(hasWorst ? [['worst modulation', round(d.worst_modulation), flat ? round(flat.worst_modulation) : '–', '']] : [])
       .concat([['oxide breakdown margin', round(d.oxide_breakdown_margin), '', '']])
       .concat(d.stability && Object.values(data.designs).filter((o) => o.stability).length > 2 ? [['place on the front holds', `${d.stability.on_front} of ${d.stability.variants} variants` + (d.stability.why ? ': unstable.' + d.stability.why : ''), '', '']] : []), [1, 2, 3]);
   $('toml').textContent = d.toml;
@@ -302,7 +307,7 @@ if (run.compared) {
 }
 $('receipts').hidden = !run.receipts;
 options($('design'), Object.keys(data.designs).map((n) => [n, n !== 'best' ? label(n) : twin !== n ? `${label(n)} (${label(twin)})` : run.design === null ? 'flat, as recommended' : label(n)]), select);
-options($('finger'), [['mean', 'mean over fingers']].concat(best.tasks.map((t, i) => [i, t.name])), (value) => { state.finger = value; showHumidity(); showBudget(); });
+options($('finger'), (sameAir ? [['mean', 'mean over fingers']] : []).concat(best.tasks.map((t, i) => [i, t.name])), (value) => { state.finger = value; showHumidity(); showBudget(); });
 options($('rh'), data.fields.map((f, i) => [i, Math.round(100 * f.relative_humidity) + ' %']), showMaps);
 startSolid();
 select('best');

@@ -58,12 +58,15 @@ function showPlan(lab) {
   }), [2, 3, 4, 6, 7, 8, 9]);
 }
 function showDecisions(lab) {
-  const all = lab.decisions, names = lab.standing.designs.map((d) => d.name);
+  // Designs by their names: which of them are choices may have changed since.
+  const all = lab.decisions, choices = lab.standing.designs.map((d) => d.name);
+  const names = [...new Set([...choices, ...all.flatMap((d) => d.designs)])];
+  const curve = (name) => all.filter((d) => d.designs.includes(name)).map((d) => ({ x: d.readings, y: 100 * d.p_designs[d.designs.indexOf(name)] }));
   $('decisionsbox').hidden = all.length < 2;
   if ($('decisionsbox').hidden) return;
   draw('decisions', {
     type: 'line',
-    data: { datasets: names.map((name, k) => ({ label: name, data: all.map((d) => ({ x: d.readings, y: 100 * d.p_designs[k] })), borderColor: colours[k % colours.length], backgroundColor: colours[k % colours.length], borderWidth: 2, pointRadius: 3 })) },
+    data: { datasets: names.map((name, k) => ({ label: choices.includes(name) ? name : `${name}, no longer a choice`, data: curve(name), borderColor: colours[k % colours.length], backgroundColor: colours[k % colours.length], borderWidth: 2, pointRadius: 3 })) },
     options: { scales: { x: axis('readings told', { type: 'linear' }), y: axis('probability of being best [%]', { min: 0, max: 100 }) } },
   });
 }

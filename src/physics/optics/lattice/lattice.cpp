@@ -68,36 +68,59 @@ Complex forward_root(Complex square_of_q) {
   return std::abs(q) < kGrazing ? Complex(0, kGrazing) : q;
 }
 
+// An operator on orders between combinations of them. Here, as below, products are of plain
+// matrices: each of Eigen's expressions of several factors costs the compiler seconds.
+ComplexMatrix between(const Eigen::MatrixXd& to, const ComplexMatrix& of_orders,
+                      const Eigen::MatrixXd& from) {
+  const ComplexMatrix right = of_orders * from;
+  return to.transpose() * right;
+}
+
+ComplexMatrix diagonal(const Eigen::VectorXd& of_order) {
+  return of_order.cast<Complex>().asDiagonal();
+}
+
+ComplexMatrix solution(const ComplexMatrix& matrix, const ComplexMatrix& right) {
+  return matrix.partialPivLu().solve(right);
+}
+
+// Each column times its own factor.
+ComplexMatrix with_columns_times(ComplexMatrix matrix, const ComplexVector& factors) {
+  for (Eigen::Index i = 0; i < factors.size(); ++i) matrix.col(i) *= factors(i);
+  return matrix;
+}
+
 // dH/dz = i Q E. Eq. optics.17
 ComplexMatrix magnetic_operator(const Basis& b, const SliceOperators& e) {
-  const ComplexMatrix mixed = (b.kx.cwiseProduct(b.ky)).cast<Complex>().asDiagonal();
-  const ComplexMatrix along_x = ComplexMatrix(b.kx.cwiseAbs2().cast<Complex>().asDiagonal()) - e.yy;
-  const ComplexMatrix along_y = e.xx - ComplexMatrix(b.ky.cwiseAbs2().cast<Complex>().asDiagonal());
+  const ComplexMatrix crossed = diagonal(b.kx.cwiseProduct(b.ky)) + e.xy;
+  const ComplexMatrix along_x = diagonal(b.kx.cwiseAbs2()) - e.yy,
+                      along_y = e.xx - diagonal(b.ky.cwiseAbs2());
   const Eigen::Index n1 = b.first.cols(), n2 = b.second.cols();
   ComplexMatrix q(b.size(), b.size());
   // Rows: H_x (second), H_y (first); columns: E_x (first), E_y (second).
-  q.topLeftCorner(n2, n1) = b.second.transpose() * (-mixed - e.xy) * b.first;
-  q.topRightCorner(n2, n2) = b.second.transpose() * along_x * b.second;
-  q.bottomLeftCorner(n1, n1) = b.first.transpose() * along_y * b.first;
-  q.bottomRightCorner(n1, n2) = b.first.transpose() * (mixed + e.xy) * b.second;
+  q.topLeftCorner(n2, n1) = -between(b.second, crossed, b.first);
+  q.topRightCorner(n2, n2) = between(b.second, along_x, b.second);
+  q.bottomLeftCorner(n1, n1) = between(b.first, along_y, b.first);
+  q.bottomRightCorner(n1, n2) = between(b.first, crossed, b.second);
   return q;
 }
 
 // dE/dz = i P H. Eq. optics.17
 ComplexMatrix electric_operator(const Basis& b, const SliceOperators& e) {
-  const auto between = [&](const Eigen::VectorXd& left, const Eigen::VectorXd& right) {
-    return ComplexMatrix(left.cast<Complex>().asDiagonal() * e.inverse_zz *
-                         right.cast<Complex>().asDiagonal());
+  // 1 / permittivity between the derivatives along two axes.
+  const auto weighted = [&](const Eigen::VectorXd& left, const Eigen::VectorXd& right) {
+    return ComplexMatrix(
+        e.inverse_zz.cwiseProduct(ComplexMatrix((left * right.transpose()).cast<Complex>())));
   };
   const auto size = static_cast<Eigen::Index>(b.orders.size());
   const ComplexMatrix one = ComplexMatrix::Identity(size, size);
   const Eigen::Index n1 = b.first.cols(), n2 = b.second.cols();
   ComplexMatrix p(b.size(), b.size());
   // Rows: E_x, E_y; columns: H_x (second), H_y (first).
-  p.topLeftCorner(n1, n2) = b.first.transpose() * between(b.kx, b.ky) * b.second;
-  p.topRightCorner(n1, n1) = b.first.transpose() * (one - between(b.kx, b.kx)) * b.first;
-  p.bottomLeftCorner(n2, n2) = b.second.transpose() * (between(b.ky, b.ky) - one) * b.second;
-  p.bottomRightCorner(n2, n1) = b.second.transpose() * -between(b.ky, b.kx) * b.first;
+  p.topLeftCorner(n1, n2) = between(b.first, weighted(b.kx, b.ky), b.second);
+  p.topRightCorner(n1, n1) = between(b.first, one - weighted(b.kx, b.kx), b.first);
+  p.bottomLeftCorner(n2, n2) = between(b.second, weighted(b.ky, b.ky) - one, b.second);
+  p.bottomRightCorner(n2, n1) = -between(b.second, weighted(b.ky, b.kx), b.first);
   return p;
 }
 
@@ -114,7 +137,8 @@ Modes flat_modes(const Basis& b, Complex permittivity) {
   out.q.resize(b.size());
   for (Eigen::Index i = 0; i < b.size(); ++i)
     out.q(i) = forward_root(permittivity - b.transverse(i));
-  out.v = magnetic_operator(b, flat_operators(b, permittivity)) * out.q.cwiseInverse().asDiagonal();
+  out.v = with_columns_times(magnetic_operator(b, flat_operators(b, permittivity)),
+                             out.q.cwiseInverse());
   return out;
 }
 
@@ -132,7 +156,7 @@ Modes lattice_modes(const Basis& b, const SliceOperators& e) {
   }
   out.q.resize(squares.size());
   for (Eigen::Index i = 0; i < squares.size(); ++i) out.q(i) = forward_root(squares(i));
-  out.v = q * out.w * out.q.cwiseInverse().asDiagonal();
+  out.v = with_columns_times(q * out.w, out.q.cwiseInverse());
   return out;
 }
 
@@ -189,24 +213,27 @@ Diffracted diffract(const LatticeStack& stack, const LatticeWave& wave, int beyo
   for (std::size_t s = stack.slices.size(); s-- > 0;) {
     const LatticeSlice& slice = stack.slices[s];
     const Modes m = modes_of(b, stack.cell, slice);
-    const ComplexMatrix electric = m.w.partialPivLu().solve(e),
-                        magnetic = m.v.partialPivLu().solve(h);
+    const ComplexMatrix electric = solution(m.w, e), magnetic = solution(m.v, h);
     const ComplexVector decay = (Complex(0, k * slice.thickness) * m.q).array().exp();
     const ComplexMatrix down = 0.5 * (electric + magnetic), up = 0.5 * (electric - magnetic);
-    passages.push_back(down.partialPivLu().solve(ComplexMatrix(decay.asDiagonal())));
-    const ComplexMatrix returned = decay.asDiagonal() * up * passages.back();
-    const ComplexMatrix one = ComplexMatrix::Identity(b.size(), b.size());
-    e = m.w * (one + returned);
-    h = m.v * (one - returned);
+    passages.push_back(solution(down, ComplexMatrix(decay.asDiagonal())));
+    ComplexMatrix returned = up * passages.back();
+    for (Eigen::Index i = 0; i < decay.size(); ++i) returned.row(i) *= decay(i);
+    const ComplexMatrix one = ComplexMatrix::Identity(b.size(), b.size()), with = one + returned,
+                        without = one - returned;
+    e = m.w * with;
+    h = m.v * without;
   }
   ComplexVector in = ComplexVector::Zero(b.size());
   in(b.incident) = 1;
   const ComplexVector sent = before.v * in;
   const double incident = b.incident < b.first.cols() ? sent(b.second.cols() + b.incident).real()
                                                       : -sent(b.incident - b.first.cols()).real();
-  ComplexVector out = (before.v * e + h).partialPivLu().solve(2.0 * sent);
+  ComplexMatrix admitted = before.v * e;
+  admitted += h;
+  ComplexVector out = solution(admitted, 2.0 * sent);
   const ComplexVector back = e * out - in;
-  for (auto p = passages.rbegin(); p != passages.rend(); ++p) out = *p * out;
+  for (auto p = passages.rbegin(); p != passages.rend(); ++p) out = ComplexVector(*p * out);
   return {powers(b, before, back, incident, square(stack.from)),
           powers(b, after, out, incident, square(stack.to)), static_cast<int>(b.size())};
 }
