@@ -116,6 +116,11 @@ bool same_pixels(const Grid& a, const Grid& b) {
 
 constexpr double kSeam = 0.1;  // of a patch's side: the band that is blended
 
+// By a key of the texture, for a stack to name it by the part that has it.
+InputError wrong_key(const std::string& key, std::string message) {
+  return InputError({Problem{{}, 0, 0, "texture." + key, std::move(message)}});
+}
+
 }  // namespace
 
 MapVersion map_version(const std::string& file) {
@@ -155,9 +160,10 @@ Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& a
   const auto scan = scan_of(source);
   const Grid& whole = scan->map.grid;
   if (whole.lx < patch * (1 - 1e-9) || whole.ly < patch * (1 - 1e-9)) {
-    throw InputError(fmt::format(
-        "{}: {:.4g} x {:.4g} um is smaller than the patch of {:.4g} um; lower texture.patch",
-        source.file, 1e6 * whole.lx, 1e6 * whole.ly, 1e6 * patch));
+    throw wrong_key("patch",
+                    fmt::format("{}: {:.4g} x {:.4g} um is smaller than the patch of {:.4g} um; "
+                                "lower it",
+                                source.file, 1e6 * whole.lx, 1e6 * whole.ly, 1e6 * patch));
   }
   // As a part of a stack it is asked for the sides of that.
   const auto other = [&](double side) { return std::abs(side / patch - 1) > 1e-9; };
@@ -176,18 +182,19 @@ Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& a
   const double beyond = std::max(std::abs(at.x) - 0.5 * (whole.lx - side_x),
                                  std::abs(at.y) - 0.5 * (whole.ly - side_y));
   if (beyond > 1e-9 * patch) {
-    throw InputError(fmt::format(
-        "texture.at_x, texture.at_y: the patch of {:.4g} x {:.4g} um round ({:.4g}, {:.4g}) um "
-        "reaches {:.4g} um beyond the map, {:.4g} x {:.4g} um: {}",
-        1e6 * side_x, 1e6 * side_y, 1e6 * at.x, 1e6 * at.y, 1e6 * beyond, 1e6 * whole.lx,
-        1e6 * whole.ly, source.file));
+    throw wrong_key(
+        "at_x, at_y",
+        fmt::format("the patch of {:.4g} x {:.4g} um round ({:.4g}, {:.4g}) um reaches {:.4g} um "
+                    "beyond the map, {:.4g} x {:.4g} um: {}",
+                    1e6 * side_x, 1e6 * side_y, 1e6 * at.x, 1e6 * at.y, 1e6 * beyond,
+                    1e6 * whole.lx, 1e6 * whole.ly, source.file));
   }
   if (source.as_is && same_pixels(grid, whole)) return {grid, scan->map.z};  // to the last bit
   if (tiles) {
     if (at != MapPlace{}) {
-      throw InputError(source.file +
-                       ": texture.at_x, texture.at_y: a map that repeats by itself begins at its "
-                       "corner as a part of a stack; leave them out");
+      throw wrong_key("at_x, at_y", source.file +
+                                        ": a map that repeats by itself begins at its corner as a "
+                                        "part of a stack; leave them out");
     }
     return periodic_cut(scan->map, grid, 0, 0, 0, 0, {}, Border::Repeats);
   }

@@ -5,37 +5,72 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "config/columns.h"
 #include "geometry/io/layout.h"
 
 namespace papilla::geometry {
 
+namespace {
+
+// Which of the two columns is which, and the unit of the depths [m]: without a heading, or where it
+// names none, nanometres.
+struct DoseColumns {
+  bool grey_first = false;
+  double unit = 1e-9;
+};
+
+// Throws InputError.
+DoseColumns read_dose_heading(std::string_view line, const std::string& place) {
+  static const std::vector<ColumnKind> kinds{
+      {"depth", "nm"}, {"depth", ""}, {"grey", "", false, {"gray"}}};
+  std::vector<std::string_view> cells;
+  split_cells(line, ',', cells);
+  const Header found = read_header(cells, kinds);
+  if (!found.problems.empty()) throw InputError(place + ": " + found.problems.front().second);
+  const bool grey_first = !found.columns.empty() && found.columns.front().kind == &kinds.back();
+  const TableColumn* depth =
+      found.columns.size() == 2 ? &found.columns[grey_first ? 1 : 0] : nullptr;
+  if (!depth || !depth->kind || depth->kind == &kinds.back() || !found.has(kinds.back()))
+    throw InputError(fmt::format(
+        "{}: \"{}\" names no columns: expected depth_nm,grey, the depth in any unit", place, line));
+  return {grey_first, depth->kind->unit.empty() ? DoseColumns{}.unit : depth->to_si};
+}
+
+}  // namespace
+
 DoseCurve read_dose_curve(const std::string& path) {
-  std::istringstream in(read_bytes(path, 1 << 20));
+  const std::string text = read_bytes(path, 1 << 20);
+  Lines lines(text);
   DoseCurve out;
-  std::string line;
+  DoseColumns columns;
   bool heading = false;
-  for (int number = 1; std::getline(in, line); ++number) {
-    if (line.ends_with('\r')) line.pop_back();
+  for (std::string_view line; lines.next(line);) {
     if (line.empty() || line.front() == '#') continue;
+    const std::string place = fmt::format("{}:{}", path, lines.number());
     double depth = 0, grey = 0;
     char rest = 0;
-    if (std::sscanf(line.c_str(), "%lf , %lf %c", &depth, &grey, &rest) != 2) {
+    if (std::sscanf(std::string(line).c_str(), "%lf , %lf %c", &depth, &grey, &rest) != 2) {
       const bool other_separator = line.find_first_of(";\t") != std::string::npos;
-      if (!std::exchange(heading, true) && out.depth.empty() && !other_separator) continue;
+      if (!std::exchange(heading, true) && out.depth.empty() && !other_separator) {
+        columns = read_dose_heading(line, place);
+        continue;
+      }
       throw InputError(
-          fmt::format("{}:{}: expected depth_nm,grey{}", path, number,
+          fmt::format("{}: expected depth_nm,grey{}", place,
                       other_separator ? "; the separator is a comma, decimals a point" : ""));
     }
-    if (!(grey >= 0 && grey <= 255) || !(depth >= 0 && depth < 1e9))
-      throw InputError(
-          fmt::format("{}:{}: expected a depth from 0 and a grey of 0 to 255", path, number));
-    out.depth.push_back(1e-9 * depth);
+    if (columns.grey_first) std::swap(depth, grey);
+    depth *= columns.unit;
+    if (!(grey >= 0 && grey <= 255) || !(depth >= 0 && depth < 1))
+      throw InputError(fmt::format("{}: expected a depth from 0 and a grey of 0 to 255", place));
+    out.depth.push_back(depth);
     out.grey.push_back(grey);
   }
   if (out.depth.size() < 2) throw InputError(path + ": expected at least two lines depth_nm,grey");

@@ -32,7 +32,9 @@ struct DoseMap {
   double lowest = 0, highest = 0;     // grey written
   std::size_t shallow = 0, deep = 0;  // pixels clipped at either end of the table
 };
-DoseCurve read_dose_curve(const std::string& path);  // CSV depth_nm,grey; throws InputError
+// CSV depth_nm,grey; a heading may name them in the other order, and another unit. Throws
+// InputError.
+DoseCurve read_dose_curve(const std::string& path);
 // Grey of each pixel, rows from the top.
 std::vector<std::uint8_t> dose_levels(const Heightmap& h, const DoseCurve& curve, DoseMap& out);
 DoseMap write_dose(const std::string& path, const Heightmap& h, const DoseCurve& curve);

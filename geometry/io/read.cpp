@@ -26,14 +26,23 @@ std::string lower_ending(const std::string& path) {
 std::unique_ptr<HeightRows> open_height_rows(const std::string& path, bool any_size,
                                              const std::string& channel) {
   const std::string ending = lower_ending(path);
+  const bool picture =
+      ending == ".exr" || ending == ".tif" || ending == ".tiff" || ending == ".png";
+  const bool one_map =
+      picture || ending == ".npy" || ending == ".gsf" || ending == ".x3p" || ending == ".sdf";
+  if (one_map && !channel.empty()) {
+    throw InputError(
+        fmt::format("cannot read {}: files of its kind hold one map, and no channel "
+                    "\"{}\"; leave ::{} out",
+                    path, channel, channel));
+  }
   if (ending == ".gwy") return open_gwy_rows(path, channel);
   if (ending == ".sur") return open_sur_rows(path, channel);
   if (ending == ".npy") return open_npy_rows(path);
   if (ending == ".gsf") return open_gsf_rows(path);
   if (ending == ".x3p") return open_x3p_rows(path);
   if (ending == ".sdf") return open_sdf_rows(path);
-  if (ending == ".exr" || ending == ".tif" || ending == ".tiff" || ending == ".png")
-    return open_image_rows(path, any_size);
+  if (picture) return open_image_rows(path, any_size);
   return open_by_gwyddion(path, channel);
 }
 

@@ -46,7 +46,10 @@ Heightmap heights(const Measured3d& t, const Grid& grid) {
   return out;
 }
 
-TextureProblems problems(const Measured3d&) { return {}; }
+TextureProblems problems(const Measured3d& t) {
+  if (!t.as_is || !t.level) return {};
+  return {{"level", "the plane is taken away, and as_is keeps it: leave one of them out"}};
+}
 
 // Told without reading the file: a map counts as having relief.
 TextureFacts facts(const Measured3d& t) {

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/constants.h"
+#include "base/error.h"
 #include "geometry/texture.h"
 
 namespace papilla::geometry {
@@ -92,6 +94,21 @@ Outline outline_of(const std::vector<TextureFacts>& parts) {
   return out;
 }
 
+// What is wrong with a part is said by its own keys: texture.patch is texture.parts.1.patch here.
+Heightmap part_heights(const Texture& part, std::size_t index, const Grid& grid) {
+  const std::string whole = "texture.";
+  try {
+    return generate(part, grid);
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& p : problems) {
+      if (p.key.starts_with(whole))
+        p.key = fmt::format("texture.parts.{}.{}", index, p.key.substr(whole.size()));
+    }
+    throw InputError(std::move(problems));
+  }
+}
+
 }  // namespace
 
 bool Stack::operator==(const Stack& other) const {
@@ -106,8 +123,8 @@ void fields(FieldVisitor& v, Stack& t) {
 Heightmap heights(const Stack& t, const Grid& grid) {
   const bool sum = t.combine == Combine::Sum;
   Heightmap out{grid, std::vector<double>(grid.size(), sum ? 0 : -kInfinity)};
-  for (const Texture& part : t.parts) {
-    const Heightmap layer = generate(part, grid);
+  for (std::size_t k = 0; k < t.parts.size(); ++k) {
+    const Heightmap layer = part_heights(t.parts[k], k, grid);
     for (std::size_t i = 0; i < out.z.size(); ++i)
       out.z[i] = sum ? out.z[i] + layer.z[i] : std::max(out.z[i], layer.z[i]);
   }

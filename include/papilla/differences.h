@@ -32,8 +32,9 @@ struct Comparison {
   Difference mean_modulation, mean_friction;  // over humidity
 };
 
-// Both designs at one level, on common skins; the options hold for both. Throws InputError, also
-// for designs whose humidities differ; Stopped.
+// Both designs at one level, on common skins; the options hold for both. With a target each takes
+// the grid and the skins that it needs, and differences are not paired where these differ. Throws
+// InputError, also for designs whose humidities differ; Stopped.
 Comparison compare(const Design& first, const Design& second, const EvaluateOptions& options = {});
 
 struct SensitivityOptions {

@@ -1,4 +1,4 @@
-"""The notebooks and the script of python/examples run, without a screen."""
+"""The notebooks and the scripts of python/examples run, without a screen."""
 
 from __future__ import annotations
 
@@ -37,10 +37,23 @@ def test_there_are_three_notebooks() -> None:
     assert len(list(EXAMPLES.glob("*.ipynb"))) == 3
 
 
+def lines_of(script: str, *arguments: str) -> list[str]:
+    done = subprocess.run([sys.executable, str(EXAMPLES / script), *arguments], capture_output=True, text=True, check=False,
+                          env=dict(os.environ))
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+@pytest.mark.slow
+def test_a_lab_measures_what_a_ranking_leaves_open(tmp_path: pathlib.Path) -> None:
+    lines = lines_of("rank_and_measure.py", str(tmp_path))
+    first = lines[0].removeprefix("ranked: ").split(", ")[:2]
+    assert len(first) == 2 and all(line.split()[1] in first for line in lines[1:-2])
+    assert " readings told: the best is " in lines[-2] and lines[-1] in ("stop", "go on")
+    assert all(f"| {name} |" in (tmp_path / "lab" / "lab.md").read_text() for name in first)
+
+
 @pytest.mark.slow
 def test_optuna_drives_thirty_trials() -> None:
-    done = subprocess.run([sys.executable, str(EXAMPLES / "optuna_search.py"), "30"], capture_output=True, text=True,
-                          check=False, env=dict(os.environ))
-    assert done.returncode == 0, done.stderr
-    lines = done.stdout.splitlines()
+    lines = lines_of("optuna_search.py", "30")
     assert lines[0] == "front of 30 trials:" and len(lines) > 1 and "texture.depth=" in lines[1]

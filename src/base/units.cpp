@@ -48,10 +48,11 @@ struct Prefix {
   const char* symbol;
   double factor;
 };
-constexpr std::array kPrefixes{Prefix{"", 1},     Prefix{"f", 1e-15}, Prefix{"p", 1e-12},
-                               Prefix{"n", 1e-9}, Prefix{"u", 1e-6},  Prefix{"µ", 1e-6},
-                               Prefix{"m", 1e-3}, Prefix{"c", 1e-2},  Prefix{"k", 1e3},
-                               Prefix{"M", 1e6},  Prefix{"G", 1e9},   Prefix{"T", 1e12}};
+constexpr std::array kPrefixes{Prefix{"", 1},          Prefix{"f", 1e-15}, Prefix{"p", 1e-12},
+                               Prefix{"n", 1e-9},      Prefix{"u", 1e-6},  Prefix{"µ", 1e-6},
+                               Prefix{"\u03bc", 1e-6}, Prefix{"m", 1e-3},  Prefix{"c", 1e-2},
+                               Prefix{"k", 1e3},       Prefix{"M", 1e6},   Prefix{"G", 1e9},
+                               Prefix{"T", 1e12}};
 
 std::optional<Unit> simple_unit(std::string_view name) {
   for (const Base& base : kBases) {

@@ -138,6 +138,9 @@ struct Swipe {
   std::vector<RubbingSample> samples;  // of a rendered one
   bool without_tones = false;          // of a rendered one: the case has some
 };
+// The machine that asks for shares of a case's current. Throws InputError where the drive is no
+// current.
+StictionOptions swipe_machine(const DriveCase& c);
 // Of recorded forces: lines "lateral,normal" [N], one per step of the options and low-passed
 // before; or "time,lateral,normal" [s] at any even rate above twice the filter's corner, which are
 // low-passed and taken at the steps of the options here. Below a head the columns are in its order

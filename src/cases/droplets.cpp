@@ -33,8 +33,8 @@ DropletCase droplets_of_design(const std::string& file, double relative_humidity
   out.how.drops_per_volume = finger.water.drops_per_um3 * 1e18;
   out.how.first_step = scene.model.droplet_step;
   out.how.rims = std::make_shared<RimMap>(picture.texture);
-  out.how.rim_pinning = rim_pinning;
-  out.how.corner_wicking = corner_wicking;
+  out.how.rim_pinning = rim_pinning || scene.model.rim_pinning;
+  out.how.corner_wicking = corner_wicking || scene.model.corner_wicking;
   return out;
 }
 

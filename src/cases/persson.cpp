@@ -243,6 +243,7 @@ class CaseField {
     const std::complex<double> h0 = pulls ? point.thickness : 1.0;
     point.on = friction_at(field_, load, touch.area, touch.shear_strength,
                            pulls ? drive.v_rms() : 0, h0, touch.finite_size_pressure);
+    point.yielded = case_.skin.hardness > 0 && point.on.pull.pressure >= case_.skin.hardness;
     point.area_off = field_.area(load / touch.area);
     if (pulls && insulates(point.thickness))
       point.capacitance =

@@ -89,6 +89,9 @@ struct MeanFieldPoint {
   // Of the nominal area, gap and layers in series [F], of a skin that conducts by the size of its
   // admittance; 0 where the gap conducts at 0 Hz or no layer insulates.
   double capacitance = 0;
+  // With the pull, the pressure is at the hardness or beyond: all of the skin yields, and the
+  // numbers under voltage, which are of a skin that carries it, mean nothing.
+  bool yielded = false;
 };
 
 struct MeanFieldResult {

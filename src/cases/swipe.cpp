@@ -88,6 +88,12 @@ StictionOptions SwipeSettings::machine(double current) const {
   return out;
 }
 
+StictionOptions swipe_machine(const DriveCase& c) {
+  if (c.drive.control != DriveControl::Current)
+    throw InputError("stickiness is rendered by a current: set drive.control = \"current\"");
+  return c.swipe.machine(c.drive.current);
+}
+
 Swipe run_swipe(const std::string& csv, const std::string& name, const StictionOptions& options,
                 double filter) {
   StictionMachine machine(options);
@@ -103,14 +109,12 @@ Swipe run_swipe(const std::string& csv, const std::string& name, const StictionO
 }
 
 Swipe render_swipe(const DriveCase& c, const Network& network) {
-  if (c.drive.control != DriveControl::Current)
-    throw InputError("stickiness is rendered by a current: set drive.control = \"current\"");
+  const StictionOptions options = swipe_machine(c);
   if (!c.recording.value.empty() || c.source.chirp_to > 0)
     throw InputError(
         "stickiness is rendered by the amplitude of a carrier, and a recording or a chirp is none: "
         "set no source.file and no source.chirp_to");
   const SwipeSettings& s = c.swipe;
-  const StictionOptions options = s.machine(c.drive.current);
   const RubbingFinger finger{c.touch.load, s.stroke, s.frequency,
                              s.stiffness,  s.filter, s.duration};
   Swipe swipe;

@@ -78,8 +78,8 @@ Study DesignOptions::study() const {
   return read_study(base, scan_as_texture(file, overrides));
 }
 
-void add_set_option(Command command, std::vector<std::string>& overrides) {
-  command
+Option add_set_option(Command command, std::vector<std::string>& overrides) {
+  return command
       .add_option("--set", overrides,
                   "Override a value of the file, e.g. --set drive.amplitude=150V")
       .type_name("KEY=VALUE")
@@ -90,8 +90,9 @@ void add_pick_option(Command command, std::string& rule) {
   command
       .add_option(
           "--pick", rule,
-          "Which design of the front: worst (highest worst modulation; default under a "
-          "drive), knee (default without), an objective (its best), or a number; judged over "
+          "Which design of the front: worst (highest worst modulation; default where what is asked "
+          "for is at the drive's own amplitude), knee (default elsewhere), an objective (its "
+          "best), or a number; judged over "
           "the belief that the fingers name (of a finished run that is by the rule which the run "
           "decided by, else by the fit)")
       .type_name("RULE");

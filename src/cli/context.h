@@ -43,7 +43,7 @@ struct DesignOptions {
 void add_design_options(Command command, DesignOptions& options);
 
 // --set KEY=VALUE, for every command that reads a design.
-void add_set_option(Command command, std::vector<std::string>& overrides);
+Option add_set_option(Command command, std::vector<std::string>& overrides);
 
 // --pick RULE, for every command that shows one design of a front.
 void add_pick_option(Command command, std::string& rule);

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
@@ -82,6 +83,9 @@ Sweep parse_sweep(const std::string& text, const Design& design) {
   }
   const double from = sweep_limit(text.substr(equals + 1, dots - equals - 1), field);
   const double to = sweep_limit(high, field);
+  if (from == to)
+    throw InputError(
+        {Problem{"--sweep " + text, 0, 0, "", "expected another end than the beginning"}});
   Sweep sweep{field.path, field.unit, {}};
   const double scale = find_unit(field.unit)->to_si;
   for (int i = 0; i < count; ++i) {
@@ -164,19 +168,45 @@ int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& des
   return status;
 }
 
-// The field rule against the 3-D potential on the first skin, on the pixels of the accuracy level.
-void print_field_check(const Context& context, const Design& design, const Fidelity& fidelity) {
+// The field rules against the 3-D potential on the first skin, on the pixels of the accuracy level.
+std::vector<FieldAccuracyRow> field_check(const Design& design, const Fidelity& fidelity) {
   FieldAccuracyOptions options;
   options.pixels = fidelity.grid;
   options.skin = fidelity.first_skin;
   options.refinements = {1};
-  for (const FieldAccuracyRow& row : field_accuracy("", design, options)) {
-    if (row.method == "spread" || row.method == "screened") {
-      context.note(fmt::format(
-          "pull at {:.0f} % RH {}: {:+.1f} % of the 3-D field's", 100 * row.relative_humidity,
-          row.method == "spread" ? "with spreading flux" : "by local columns", 100 * row.error));
-    }
-  }
+  std::vector<FieldAccuracyRow> out = field_accuracy("", design, options);
+  std::erase_if(out, [](const FieldAccuracyRow& row) {
+    return row.method != "spread" && row.method != "screened";
+  });
+  return out;
+}
+
+std::string field_check_text(const std::vector<FieldAccuracyRow>& rows) {
+  std::string out;
+  for (const FieldAccuracyRow& row : rows)
+    out += fmt::format(
+        "pull at {:.4g} % RH {}: {:+.1f} % of the 3-D field's\n", 100 * row.relative_humidity,
+        row.method == "spread" ? "with spreading flux" : "by local columns", 100 * row.error);
+  return out;
+}
+
+// The response with the field check in it.
+std::string with_field_check(const std::string& json, const std::vector<FieldAccuracyRow>& rows) {
+  auto out = nlohmann::ordered_json::parse(json);
+  auto& list = out["field_check"] = nlohmann::ordered_json::array();
+  for (const FieldAccuracyRow& row : rows)
+    list.push_back({{"relative_humidity", row.relative_humidity},
+                    {"rule", row.method == "spread" ? "spread" : "local"},
+                    {"error", row.error}});
+  return out.dump(2);
+}
+
+// What was asked for of a drive that is at 0.
+std::string undriven_text(const EvaluateOptions& options) {
+  std::vector<std::string> asked;
+  if (options.pull_in) asked.emplace_back("--pull-in");
+  if (options.check_field) asked.emplace_back("--check-field");
+  return asked.empty() ? "" : join_names(asked, " and ") + ": the drive is at 0\n";
 }
 
 constexpr double kSecondsBetweenNotes = 10;
@@ -242,11 +272,18 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
     write_field_pictures(options.out, design, fidelity);
     context.note("wrote " + options.out);
   }
-  if (options.design.json)
-    std::cout << response_json(response) << '\n';
-  else
+  const bool check_field = options.check_field && response.driven;
+  const auto checked =
+      check_field ? field_check(design, fidelity) : std::vector<FieldAccuracyRow>{};
+  const std::string undriven = response.driven ? "" : undriven_text(options);
+  if (options.design.json) {
+    const std::string json = response_json(response);
+    std::cout << (options.check_field ? with_field_check(json, checked) : json) << '\n';
+    std::cerr << undriven;
+  } else {
     context.print(response_table(response));
-  if (options.check_field && design.drive.driven()) print_field_check(context, design, fidelity);
+    std::cout << field_check_text(checked) << undriven;
+  }
   return status_of(response);
 }
 
@@ -261,8 +298,10 @@ void add_evaluate(Command app, Context& context) {
       .type_name("PATH=LOW..HIGH[:COUNT]");
   command
       .add_option("--voltage-for", options->voltage_for,
-                  "Also the amplitude at which the modulation reaches this value")
+                  "Also the amplitude at which the modulation reaches this value; named again: of "
+                  "several")
       .type_name("MODULATION")
+      .repeatable()
       .check([](const std::string& text) {
         double value = 0;
         const char* end = text.data() + text.size();

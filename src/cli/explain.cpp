@@ -4,6 +4,9 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/constants.h"
 #include "base/text.h"
@@ -130,6 +133,22 @@ std::string cut_rims(Texture texture) {
       1e6 * width(sharp), 1e9 * largest);
 }
 
+// Of a texture, or of each part of it by its section: "texture.parts.1: rims of ...".
+std::vector<std::string> cut_rims_of(const Texture& texture, const std::string& section) {
+  std::vector<std::string> out;
+  Texture copy = texture;
+  if (const std::vector<Texture>* parts = roles(copy).parts) {
+    for (std::size_t i = 0; i < parts->size(); ++i) {
+      for (std::string& said : cut_rims_of((*parts)[i], fmt::format("{}.parts.{}", section, i)))
+        out.push_back(std::move(said));
+    }
+    return out;
+  }
+  const std::string said = cut_rims(texture);
+  if (!said.empty()) out.push_back(section == "texture" ? said : section + ": " + said);
+  return out;
+}
+
 int explain(const Context& context, const DesignOptions& options, bool measure) {
   const Study study = options.study();
   const Design& design = study.design;
@@ -156,7 +175,7 @@ int explain(const Context& context, const DesignOptions& options, bool measure) 
   text += plan.text();
   text += time_text(design, fidelity, plan);
   for (const std::string& line : calibration_mismatch(design)) text += "warning: " + line + '\n';
-  if (const std::string rims = cut_rims(design.texture); !rims.empty())
+  for (const std::string& rims : cut_rims_of(design.texture, "texture"))
     text += "warning: " + rims + '\n';
   if (const std::string why = frequency_not_felt(design); design.drive.driven() && !why.empty())
     text += "frequency not felt: " + why + '\n';

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "base/error.h"
@@ -35,7 +35,22 @@ struct ExportCommand {
       tolerance = "5 %";
   int pixels = 1024, repeat = 1, levels = 1;
   bool verify = false, unrounded = false;
+  // An option of some formats alone, and theirs.
+  std::vector<std::pair<Option, std::vector<std::string>>> of_formats;
 };
+
+// Throws InputError for an option of files that are not written.
+void refuse_of_other_formats(const ExportCommand& command) {
+  if (command.formats.empty()) return;  // all that the texture allows
+  for (const auto& [option, formats] : command.of_formats) {
+    const bool written = std::any_of(formats.begin(), formats.end(), [&](const auto& format) {
+      return std::count(command.formats.begin(), command.formats.end(), format) > 0;
+    });
+    if (option.given() && !written)
+      throw InputError(fmt::format("{} is of {}, which --format does not name", option.name(),
+                                   join_names(formats, " and ")));
+  }
+}
 
 // What is exported, and where its files go by default: beside a folder of results.
 struct ExportSourceFile {
@@ -65,12 +80,12 @@ ExportSourceFile source_of(const ExportCommand& command) {
   return {found.string(), beside.string()};
 }
 
-// "1 mm", or "110x62 mm", "110 mm x 62 mm": both sides; 0 where only one is given.
-std::pair<double, double> parse_sides(const std::string& text) {
+// "1 mm", or "110x62 mm", "110 mm x 62 mm": one side, or both.
+std::pair<double, std::optional<double>> parse_sides(const std::string& text) {
   constexpr std::string_view kTimes = "×";
   const std::size_t times = text.find(kTimes), letter = text.find('x');
   const std::size_t cross = std::min(times, letter);
-  if (cross == std::string::npos) return {parse_si(text, "um"), 0};
+  if (cross == std::string::npos) return {parse_si(text, "um"), std::nullopt};
   const std::string_view all = text, first = all.substr(0, cross),
                          second = all.substr(cross + (cross == times ? kTimes.size() : 1));
   const auto width = parse_quantity(first), height = parse_quantity(second);
@@ -85,10 +100,12 @@ ExportOptions options_of(const ExportCommand& command) {
   options.formats = command.formats;
   options.pixels = command.pixels;
   if (!command.size.empty()) {
-    std::tie(options.size, options.size_y) = parse_sides(command.size);
+    const auto [width, height] = parse_sides(command.size);
     const auto allowed = [](double side) { return side > 0 && side <= 1; };
-    if (!allowed(options.size) || !(options.size_y == 0 || allowed(options.size_y)))
+    if (!allowed(width) || (height && !allowed(*height)))
       throw InputError("--size: expected lengths above 0 and up to 1 m");
+    options.size = width;
+    options.size_y = height.value_or(0);
   }
   if (!command.polarity.empty()) {
     options.polarity = command.polarity == "white-high" ? Polarity::WhiteHigh : Polarity::WhiteDeep;
@@ -107,6 +124,7 @@ ExportOptions options_of(const ExportCommand& command) {
 }
 
 int export_files(const Context& context, const ExportCommand& command) {
+  refuse_of_other_formats(command);
   const ExportSourceFile source = source_of(command);
   const Study study = read_study(source.design, command.design.overrides);
   if (source.rounded) {
@@ -164,8 +182,10 @@ void add_export(Command app, Context& context) {
   command.add_flag("--json", options->design.json, "One JSON object on standard output");
   command
       .add_option("--format", options->formats,
-                  join_names(export_formats()) + "; default: what the texture allows")
-      .separator(',');
+                  join_names(export_formats()) +
+                      "; several by commas, or named again; default: what the texture allows")
+      .separator(',')
+      .repeatable();
   command.add_option("--size", options->size,
                      "Side, or both of them, rounded to whole periods: \"1 mm\", \"110x62 mm\"; "
                      "default: about 12 um");
@@ -174,17 +194,30 @@ void add_export(Command app, Context& context) {
       .add_option("--polarity", options->polarity,
                   "white-high (bright is high) or white-deep; needed for tiff and mask")
       .one_of({"white-high", "white-deep"});
-  command.add_option("--repeat", options->repeat, "EXR: the map so many times each way, streamed")
-      .range(1, 4096);
-  command.add_option("--levels", options->levels, "Layout of a free form: layers, one per level")
-      .range(1, 64);
-  command.add_option("--facet-error", options->facet_error, "Layouts: of circles; default 2 nm");
+  const auto of_formats = [&](const Option& option, const std::vector<std::string>& formats) {
+    options->of_formats.emplace_back(option, formats);
+  };
+  of_formats(
+      command
+          .add_option("--repeat", options->repeat, "EXR: the map so many times each way, streamed")
+          .range(1, 4096),
+      {"exr"});
+  of_formats(
+      command
+          .add_option("--levels", options->levels, "Layout of a free form: layers, one per level")
+          .range(1, 64),
+      {"gds", "oasis"});
+  of_formats(command.add_option("--facet-error", options->facet_error,
+                                "Layouts: of circles; default 2 nm"),
+             {"gds", "oasis"});
   command.add_option("--shrink", options->shrink,
                      "The process moves each wall into the hole by this; undone in the files");
   command.add_option("--edge-rounding", options->edge_rounding,
                      "The process rounds rims by this; left out of the files");
-  command.add_option("--dose-curve", options->dose_curve, "CSV depth_nm,grey: writes dose.png")
-      .type_name("FILE");
+  of_formats(
+      command.add_option("--dose-curve", options->dose_curve, "CSV depth_nm,grey: writes dose.png")
+          .type_name("FILE"),
+      {"dose"});
   command.add_flag(
       "--verify", options->verify,
       "Also measure holes and walls in the written heights and simulate them (every file is "

@@ -1,6 +1,7 @@
 // papilla next: which measurement settles a decision, and when none does any more.
 #include <iostream>
 #include <memory>
+#include <vector>
 
 #include "base/text.h"
 #include "base/units.h"
@@ -16,6 +17,7 @@ struct NextCommand {
   NextRun run;
   std::string aim, time;
   bool json = false, show = false;
+  std::vector<Option> of_plan;  // that --show does not obey
 };
 
 int plan_next(const Context& context, NextCommand command) {
@@ -23,6 +25,10 @@ int plan_next(const Context& context, NextCommand command) {
   const auto note = [&](const std::string& text) { context.note(text); };
   if (command.show) {
     if (run.source.paths.size() != 1) throw InputError("--show: name one lab");
+    for (const Option& option : command.of_plan) {
+      if (option.given())
+        throw InputError(option.name() + " is of a plan, and --show makes none: leave one out");
+    }
     const NextReport state = lab_state(run.source.paths.front(), run.threads);
     if (command.json)
       std::cout << state.json << '\n';
@@ -33,7 +39,11 @@ int plan_next(const Context& context, NextCommand command) {
   for (std::size_t k = 0; k < aim_names().size(); ++k) {
     if (aim_names()[k] == command.aim) run.options.aim = static_cast<Aim>(k);
   }
-  if (!command.time.empty()) run.options.seconds = parse_si(command.time, "min");
+  if (!command.time.empty()) {
+    run.options.seconds = parse_si(command.time, "min");
+    if (!(run.options.seconds > 0))
+      throw InputError("--time: \"" + command.time + "\": expected more than 0 min");
+  }
   if (run.options.date.empty()) run.options.date = today();
   run.note = note;
   const Interruptible interrupt;
@@ -64,31 +74,34 @@ void add_next(Command app, Context& context) {
                   "A folder of results, a wafer's manifest.csv, designs, a calibration, or a lab")
       .required()
       .type_name("RESULTS|CALIBRATION|FOLDER");
-  command.add_option("--lab", options->run.folder, "Folder of a new lab; else below labs/")
-      .type_name("DIR");
-  command.add_option("--for", options->aim, "What the batch is for; else what there is to settle")
-      .one_of(aim_names());
-  command.add_option("--count", options->run.options.count, "Touches, at most")
-      .range(1, 1000)
-      .show_default();
-  command.add_option("--time", options->time, "Work that the batch may take, \"240 min\"");
-  command.add_option("--belief", source.belief, "Belief file; else that of the designs' finger")
-      .type_name("FILE");
-  command.add_option("--worth", source.worth, "Metric that designs are compared by");
-  command.add_option("--load", source.load, "Loads that can be set, \"0.1 N,0.3 N\"");
-  command.add_option("--humidity", source.humidity, "Humidities that can be set, \"15 %,75 %\"");
-  command.add_option("--voltage", source.voltage, "Peak voltages, \"0 V,100 V\"");
-  command.add_option("--frequency", source.frequency, "Of the carrier");
-  command.add_option("--state", source.states, "States of the finger, \"clean,natural\"");
-  command
-      .add_option("--set", source.values,
-                  "Value of a new lab.toml, \"instrument.repeatability=2 %\"")
-      .type_name("KEY=VALUE")
-      .repeatable();
-  command.add_option("--finger", options->run.options.finger, "Who will be measured")
-      .show_default();
-  command.add_option("--day", options->run.options.day, "When; else the date");
-  command.add_option("--date", options->run.options.date, "Of today, for the journal");
+  options->of_plan = {
+      command.add_option("--lab", options->run.folder, "Folder of a new lab; else below labs/")
+          .type_name("DIR"),
+      command
+          .add_option("--for", options->aim, "What the batch is for; else what there is to settle")
+          .one_of(aim_names()),
+      command.add_option("--count", options->run.options.count, "Touches, at most")
+          .range(1, 1000)
+          .show_default(),
+      command.add_option("--time", options->time, "Work that the batch may take, \"240 min\""),
+      command.add_option("--belief", source.belief, "Belief file; else that of the designs' finger")
+          .type_name("FILE"),
+      command.add_option("--worth", source.worth, "Metric that designs are compared by"),
+      command.add_option("--load", source.load, "Loads that can be set, \"0.1 N,0.3 N\""),
+      command.add_option("--humidity", source.humidity,
+                         "Humidities that can be set, \"15 %,75 %\""),
+      command.add_option("--voltage", source.voltage, "Peak voltages, \"0 V,100 V\""),
+      command.add_option("--frequency", source.frequency, "Of the carrier"),
+      command.add_option("--state", source.states, "States of the finger, \"clean,natural\""),
+      command
+          .add_option("--set", source.values,
+                      "Value of a new lab.toml, \"instrument.repeatability=2 %\"")
+          .type_name("KEY=VALUE")
+          .repeatable(),
+      command.add_option("--finger", options->run.options.finger, "Who will be measured")
+          .show_default(),
+      command.add_option("--day", options->run.options.day, "When; else the date"),
+      command.add_option("--date", options->run.options.date, "Of today, for the journal")};
   command.add_option("--jobs", options->run.threads, "Threads; 0: all processors").range(0, 4096);
   command.add_flag("--show", options->show, "Where a lab stands, without planning");
   command.add_flag("--json", options->json, "One JSON object on standard output");

@@ -106,7 +106,7 @@ nlohmann::ordered_json result_json(const OptimiseResult& r, const StudyProblem& 
                                          {"se", s.errors[k]},
                                          {"parameters", parameters ? Json(*parameters) : Json()}};
     }
-    j["worst_modulation"] = s.ok && problem.driven() ? Json(s.worst) : Json(nullptr);
+    j["worst_modulation"] = s.ok && problem.judged_at_amplitude() ? Json(s.worst) : Json(nullptr);
     return j;
   };
   out["designs"] = Json::array();
@@ -224,8 +224,8 @@ int optimize(const OptimizeOptions& options, const Context& context) {
       "search: many designs quickly; narrow: the best and their neighbours again, more precisely; "
       "confirm: the finalists at the study's accuracy; belief: what is not known of finger and "
       "model; check: without texture, other models, tolerances");
+  const StudyProblem problem(study);
   if (!run.resume) {
-    const StudyProblem problem(study);
     if (const auto wrong = problem.constraints().contradiction(); wrong && wrong->flat_keeps)
       context.note("warning: " + wrong->text + "; only the flat surface is left");
     if (!context.quiet) context.note(price_text(study));
@@ -235,7 +235,7 @@ int optimize(const OptimizeOptions& options, const Context& context) {
   if (launched_rank() > 0) return kSuccess;
   printer.finish();
   if (options.json) {
-    std::cout << result_json(result, StudyProblem(study), run.folder, study).dump(2) << '\n';
+    std::cout << result_json(result, problem, run.folder, study).dump(2) << '\n';
   } else if (!result.interrupted) {
     std::string text = result_table(study, result);
     if (std::filesystem::exists(run.folder + "/best/mask.tif")) {
@@ -256,7 +256,7 @@ int optimize(const OptimizeOptions& options, const Context& context) {
                     counted(result.lost, "record"), run.folder, result.kept_copy));
   }
   if (!result.interrupted) {
-    for (const std::string& remark : run_remarks(study, StudyProblem(study), result))
+    for (const std::string& remark : run_remarks(study, problem, result))
       context.note("warning: " + remark);
   }
   const double seconds =

@@ -39,6 +39,12 @@ std::string share_mistake(const std::string& text) {
   return "expected more than 0 % and less than 100 %, got " + text;
 }
 
+void refuse(const std::vector<Option>& options, const std::string& whose) {
+  for (const Option& option : options) {
+    if (option.given()) throw InputError(option.name() + " is of " + whose);
+  }
+}
+
 Option Option::required() const { return Option(option_->required()); }
 
 Option Option::type_name(const std::string& name) const { return Option(option_->type_name(name)); }
@@ -46,7 +52,8 @@ Option Option::type_name(const std::string& name) const { return Option(option_-
 Option Option::show_default() const { return Option(option_->capture_default_str()); }
 
 Option Option::repeatable() const {
-  return Option(option_->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
+  return Option(option_->expected(1)->allow_extra_args(false)->multi_option_policy(
+      CLI::MultiOptionPolicy::TakeAll));
 }
 
 Option Option::separator(char character) const { return Option(option_->delimiter(character)); }

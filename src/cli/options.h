@@ -43,6 +43,9 @@ class Option {
   CLI::Option* option_;
 };
 
+// Throws InputError where one of them was named: nothing here would obey it, it "is of" that.
+void refuse(const std::vector<Option>& options, const std::string& whose);
+
 // What is wrong with a share as a value, "5 %": above 0 and below 100 %; "": nothing.
 std::string share_mistake(const std::string& text);
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <system_error>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -12,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/scan_options.h"
 #include "design/scans.h"
+#include "geometry/io/files.h"
 #include "rank/conditions.h"
 #include "report/ranking.h"
 
@@ -47,6 +49,27 @@ bool is_design(const std::string& file) {
   return std::filesystem::path(file).extension() == ".toml";
 }
 
+// A+B are regions of one candidate, where no file has that name.
+std::vector<std::string> regions_named(const std::string& name) {
+  std::error_code missing;
+  if (std::filesystem::exists(own_or_shipped(map_name(name).file), missing)) return {name};
+  return split(name, '+');
+}
+
+// Throws InputError for options that nothing here would obey.
+void check(const RankCommand& command) {
+  if (command.files.size() < 2) throw InputError("name two designs at least");
+  if (command.parameters && command.no_parameters)
+    throw InputError("--parameters and --no-parameters: give one of them");
+  if (command.base.empty()) return;
+  for (const std::string& file : command.files) {
+    for (const std::string& region : regions_named(file)) {
+      if (!is_design(region)) return;
+    }
+  }
+  throw InputError("--base is for scans, and every candidate is a design (.toml) of its own");
+}
+
 // A region by its file: a design, or a scan that becomes the texture of the base.
 Design read_region(const std::string& file, const RankCommand& command) {
   if (is_design(file)) return read_design(file, command.overrides);
@@ -62,7 +85,7 @@ Design read_region(const std::string& file, const RankCommand& command) {
 std::vector<std::string> short_names(const std::vector<std::string>& files) {
   std::vector<std::string> names;
   for (const std::string& file : files)
-    names.push_back(std::filesystem::path(split(file, '+').front()).stem().string());
+    names.push_back(std::filesystem::path(regions_named(file).front()).stem().string());
   const std::vector<std::string> stems = names;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::count(stems.begin(), stems.end(), stems[i]) > 1) names[i] = files[i];
@@ -71,7 +94,7 @@ std::vector<std::string> short_names(const std::vector<std::string>& files) {
 }
 
 int run(const Context& context, const RankCommand& command) {
-  if (command.files.size() < 2) throw InputError("name two designs at least");
+  check(command);
   std::vector<Regions> candidates;
   std::vector<Design> designs;
   std::vector<std::vector<std::string>> seen;
@@ -79,7 +102,7 @@ int run(const Context& context, const RankCommand& command) {
   for (const std::string& file : command.files) {
     Regions regions;
     seen.emplace_back();
-    for (const std::string& region : split(file, '+')) {
+    for (const std::string& region : regions_named(file)) {
       if (region.empty()) {
         throw InputError("\"" + file +
                          "\": A.toml+B.toml joins the regions of one design, and a name is missing "
@@ -111,7 +134,7 @@ int run(const Context& context, const RankCommand& command) {
       command.parameters || std::any_of(designs.begin(), designs.end(),
                                         [](const Design& d) { return d.accuracy.parameters; });
   options.parameters = !command.no_parameters && (asked || unknown.empty());
-  if (!options.parameters && !unknown.empty())
+  if (options.felt() && !options.parameters && !unknown.empty())
     context.note("what the fit of the finger leaves open is in no probability: " + unknown);
   options.note = [&](const std::string& text) { context.note(text); };
   options.any_conditions = command.any_conditions;

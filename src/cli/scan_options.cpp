@@ -16,19 +16,22 @@ ScanSource ScanOptions::source() const {
   const double width = size.empty() ? 0 : parse_si(size, "um");
   if (width < 0 || (!size.empty() && width == 0))
     throw InputError(fmt::format("--size must be positive, got \"{}\"", size));
+  if (as_is && level)
+    throw InputError("--as-is takes no plane away, and --level does: give one of them");
   return {file, width, fill, as_is, level};
 }
 
-void add_scan_options(Command command, ScanOptions& options) {
-  command.add_option("--size", options.size,
-                     "Lateral size in x, where the file does not say: \"12 um\"");
-  command.add_flag("--fill", options.fill,
-                   "Heights that are no numbers get the mean of those around them");
-  command.add_flag(
-      "--as-is", options.as_is,
-      "Take no plane away and replace no pixel: a surface that is known, not measured");
-  command.add_flag("--level", options.level,
-                   "Take the plane away of made maps (arrays, exports) and periodic ones too");
+std::vector<Option> add_scan_options(Command command, ScanOptions& options) {
+  return {
+      command.add_option("--size", options.size,
+                         "Lateral size in x, where the file does not say: \"12 um\""),
+      command.add_flag("--fill", options.fill,
+                       "Heights that are no numbers get the mean of those around them"),
+      command.add_flag(
+          "--as-is", options.as_is,
+          "Take no plane away and replace no pixel: a surface that is known, not measured"),
+      command.add_flag("--level", options.level,
+                       "Take the plane away of made maps (arrays, exports) and periodic ones too")};
 }
 
 void say_scan(const std::string& file, const ScanChanges& changes) {

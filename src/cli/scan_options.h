@@ -19,7 +19,7 @@ struct ScanOptions {
 };
 
 // --size, --fill, --as-is and --level.
-void add_scan_options(Command command, ScanOptions& options);
+std::vector<Option> add_scan_options(Command command, ScanOptions& options);
 
 // What was changed of a map, on standard error: it is no progress, --quiet keeps it.
 void say_scan(const std::string& file, const ScanChanges& changes);

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <vector>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -36,6 +37,8 @@ struct ContactCommand {
   int max_iterations = 1000;
   int threads = 1;
   bool json = false;
+  // That only one of a case and --height, or one kind of body, obeys.
+  std::vector<Option> of_case, of_height, of_layer, of_counter;
 };
 
 double positive(const std::string& text, const char* unit, const char* option) {
@@ -55,6 +58,7 @@ LayeredSolid skin_of(const ContactCommand& c) {
         "--bulk-modulus");
   }
   if (!c.modulus.empty()) {
+    refuse(c.of_layer, "--layer-modulus, a layer on a half-space; --modulus is of all of it");
     const double e = positive(c.modulus, "MPa", "--modulus");
     return {e, 0, 0, e, 0};
   }
@@ -68,6 +72,7 @@ LayeredSolid skin_of(const ContactCommand& c) {
 
 LayeredSolid solid_of(const ContactCommand& c) {
   LayeredSolid solid = skin_of(c);
+  if (c.counter_modulus.empty()) refuse(c.of_counter, "--counter-modulus");
   if (!c.counter_modulus.empty()) {
     solid.counter_modulus = positive(c.counter_modulus, "MPa", "--counter-modulus");
     solid.counter_poisson = c.counter_poisson;
@@ -78,6 +83,7 @@ LayeredSolid solid_of(const ContactCommand& c) {
 int solve_case(const Context& context, const ContactCommand& command) {
   if (!command.scan.file.empty())
     throw InputError("give either a case of statistics or --height, a surface to press");
+  refuse(command.of_height, "--height; a case has its own");
   const StatisticsCase c = read_statistics(command.statistics, command.overrides);
   if (!command.out.empty()) make_folder(command.out);
   const auto begin = std::chrono::steady_clock::now();
@@ -99,6 +105,7 @@ int solve(const ContactCommand& c) {
     throw InputError(
         "give a surface, --height FILE, or a case of statistics, e.g. "
         "designs/physics/rough_contact.toml");
+  refuse(c.of_case, "a case of statistics, and --height names a surface");
   const LayeredSolid solid = solid_of(c);
   if (c.pressure.empty() == c.approach.empty()) {
     throw InputError("give either --pressure or --approach");
@@ -151,36 +158,48 @@ void add_solve_contact(Command solve_command, Context& context) {
       .type_name("CASE.toml");
   command.add_option("--height", c->scan.file,
                      "Or a heightmap (.npy .gsf .exr .tif .x3p), high touches first");
-  add_set_option(command, c->overrides);
-  add_scan_options(command, c->scan);
-  command.add_option("--pressure", c->pressure, "Mean pressure: \"15 kPa\"");
-  command.add_option("--approach", c->approach,
-                     "Or the rigid approach from first touch: \"120 nm\"");
-  command.add_option("--modulus", c->modulus, "E* of a homogeneous half-space: \"53 MPa\"");
-  command.add_option("--layer-modulus", c->layer_modulus, "Young's modulus of the layer");
-  command.add_option("--layer-poisson", c->layer_poisson, "Its Poisson ratio").range(0.0, 0.5);
-  command.add_option("--layer-thickness", c->layer_thickness, "Its thickness");
-  command.add_option("--bulk-modulus", c->bulk_modulus, "Young's modulus below");
-  command.add_option("--bulk-poisson", c->bulk_poisson, "Poisson ratio below").range(0.0, 0.5);
-  command.add_option("--counter-modulus", c->counter_modulus,
-                     "Young's modulus of a compliant counter-body");
-  command.add_option("--counter-poisson", c->counter_poisson, "Its Poisson ratio").range(0.0, 0.5);
-  command.add_option("--hardness", c->hardness, "Cap on the pressure; 0: none");
-  command.add_option("--tolerance", c->tolerance, "On the certificate (docs/theory/contact.md)")
-      .range(1e-15, 0.1);
-  command.add_choice("--method", c->method, kMethods,
-                     "auto, dense (full grid) or sparse (light contact)");
-  command.add_option("--max-iterations", c->max_iterations, "Before the solver gives up")
-      .range(1, 1000000);
-  command
-      .add_option("--threads", c->threads, "Of a case, one a surface; a single solve runs on one")
-      .range(1, 1024);
-  command
-      .add_option("--out", c->out,
-                  "Of a case: also the distributions of gaps and pressures as tables")
-      .type_name("DIR");
-  command.add_option("--out-pressure", c->out_pressure, "Pressure [Pa] as .npy");
-  command.add_option("--out-gap", c->out_gap, "Gap [m] as .npy");
+  c->of_case = {add_set_option(command, c->overrides)};
+  c->of_height = add_scan_options(command, c->scan);
+  const auto of_height = [&](const Option& option) {
+    c->of_height.push_back(option);
+    return option;
+  };
+  of_height(command.add_option("--pressure", c->pressure, "Mean pressure: \"15 kPa\""));
+  of_height(command.add_option("--approach", c->approach,
+                               "Or the rigid approach from first touch: \"120 nm\""));
+  of_height(
+      command.add_option("--modulus", c->modulus, "E* of a homogeneous half-space: \"53 MPa\""));
+  of_height(
+      command.add_option("--layer-modulus", c->layer_modulus, "Young's modulus of the layer"));
+  c->of_layer = {
+      of_height(command.add_option("--layer-poisson", c->layer_poisson, "Its Poisson ratio")
+                    .range(0.0, 0.5)),
+      of_height(command.add_option("--layer-thickness", c->layer_thickness, "Its thickness")),
+      of_height(command.add_option("--bulk-modulus", c->bulk_modulus, "Young's modulus below")),
+      of_height(command.add_option("--bulk-poisson", c->bulk_poisson, "Poisson ratio below")
+                    .range(0.0, 0.5))};
+  of_height(command.add_option("--counter-modulus", c->counter_modulus,
+                               "Young's modulus of a compliant counter-body"));
+  c->of_counter = {
+      of_height(command.add_option("--counter-poisson", c->counter_poisson, "Its Poisson ratio")
+                    .range(0.0, 0.5))};
+  of_height(command.add_option("--hardness", c->hardness, "Cap on the pressure; 0: none"));
+  of_height(
+      command.add_option("--tolerance", c->tolerance, "On the certificate (docs/theory/contact.md)")
+          .range(1e-15, 0.1));
+  of_height(command.add_choice("--method", c->method, kMethods,
+                               "auto, dense (full grid) or sparse (light contact)"));
+  of_height(command.add_option("--max-iterations", c->max_iterations, "Before the solver gives up")
+                .range(1, 1000000));
+  c->of_case.push_back(
+      command.add_option("--threads", c->threads, "Of a case, one a surface").range(1, 1024));
+  c->of_case.push_back(
+      command
+          .add_option("--out", c->out,
+                      "Of a case: also the distributions of gaps and pressures as tables")
+          .type_name("DIR"));
+  of_height(command.add_option("--out-pressure", c->out_pressure, "Pressure [Pa] as .npy"));
+  of_height(command.add_option("--out-gap", c->out_gap, "Gap [m] as .npy"));
   command.add_flag("--json", c->json, "One JSON object");
   command.on_chosen([c, &context] {
     context.action = [c, &context] {

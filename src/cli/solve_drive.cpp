@@ -21,8 +21,8 @@ std::vector<Swipe> swipes_of(const DriveCommand& command, const DriveCase& c,
                              const DriveResult& result) {
   std::vector<Swipe> out;
   if (!command.swipe.empty()) {
-    out.push_back(run_swipe(read_bytes(command.swipe), command.swipe,
-                            c.swipe.machine(c.drive.current), c.swipe.filter));
+    out.push_back(
+        run_swipe(read_bytes(command.swipe), command.swipe, swipe_machine(c), c.swipe.filter));
   }
   if (command.render) out.push_back(render_swipe(c, result.network));
   return out;

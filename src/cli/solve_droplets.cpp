@@ -27,14 +27,8 @@ struct DropletsOptions {
   bool pinning = false, wicking = false;
   bool json = false;
   std::vector<Option> of_gap, of_design;  // that only one of the two obeys
+  std::vector<Option> of_placements;
 };
-
-// Throws InputError.
-void refuse(const std::vector<Option>& options, const std::string& whose) {
-  for (const Option& option : options) {
-    if (option.given()) throw InputError(option.name() + " is of " + whose);
-  }
-}
 
 DropletCase case_of(const DropletsOptions& options) {
   if (!options.design.empty()) {
@@ -82,6 +76,9 @@ int solve_ensemble(const DropletsOptions& options, const DropletCase& c) {
 }
 
 int solve(const DropletsOptions& options) {
+  if (options.seeds == 0) refuse(options.of_placements, "--placements");
+  if (options.seeds > 0 && !options.picture.empty())
+    throw InputError("--out draws one placement: leave it out, or --placements");
   const DropletCase c = case_of(options);
   check(c);
   if (options.seeds > 0) return solve_ensemble(options, c);
@@ -117,8 +114,9 @@ void add_solve_droplets(Command solve_command, Context& context) {
       command.add_option("--skin", options->skin, "Skin patch of the design, from 0")
           .range(0, 1000000)
           .show_default(),
-      command.add_flag("--pin-edges", options->pinning,
-                       "Design: lines do not pass the edges of holes"),
+      command.add_flag(
+          "--pin-edges", options->pinning,
+          "Design: lines do not pass the edges of holes, also where its model lets them"),
       command.add_flag("--wick-corners", options->wicking,
                        "Design: droplets at the foot of a wall creep along it"),
   };
@@ -159,8 +157,10 @@ void add_solve_droplets(Command solve_command, Context& context) {
       .add_option("--placements", options->seeds,
                   "Placements of a low and a high volume each, with standard errors")
       .range(2, 10000);
-  command.add_option("--spread", options->spread, "Low and high volume, as a share of the volume")
-      .show_default();
+  options->of_placements = {
+      command
+          .add_option("--spread", options->spread, "Low and high volume, as a share of the volume")
+          .show_default()};
   command.add_flag("--json", options->json, "One JSON object, SI units");
   command.on_chosen(
       [&context, options] { context.action = [options] { return solve(*options); }; });

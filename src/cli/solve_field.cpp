@@ -7,6 +7,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -26,6 +27,7 @@ struct FieldCommand {
   double step_coverage = 0;
   double permittivity = 3.9;
   bool dc = false, json = false;
+  std::vector<Option> of_texture, of_directional;
 };
 
 double not_negative(const std::string& text, const char* unit, const char* option) {
@@ -45,6 +47,8 @@ FilmProcess film_process(const FieldCommand& c) {
 }
 
 int solve(const FieldCommand& c) {
+  if (c.texture.empty()) refuse(c.of_texture, "--texture; the surface is flat");
+  if (c.process != "directional") refuse(c.of_directional, "--process directional");
   const Heightmap gap = read_map(c.gap, c.size);
   if (*std::min_element(gap.z.begin(), gap.z.end()) < 0)
     throw InputError(c.gap + ": a gap must not be negative anywhere");
@@ -105,19 +109,21 @@ void add_solve_field(Command solve_command, Context& context) {
       .range(1.0, 1e5)
       .show_default();
   command.add_option("--strength", c->strength, "Its breakdown field").show_default();
-  command
-      .add_option(
-          "--process", c->process,
-          "Of the dielectric on --texture: conformal, directional, planar (surface.process)")
-      .one_of({"conformal", "directional", "planar"})
-      .show_default();
-  command.add_option("--step-coverage", c->step_coverage, "Of a directional dielectric")
-      .range(0.0, 1.0)
-      .show_default();
-  command
-      .add_option("--edge-radius", c->edge_radius,
-                  "Of the electrode's edges below walls; 0: not stated")
-      .show_default();
+  c->of_texture = {
+      command
+          .add_option(
+              "--process", c->process,
+              "Of the dielectric on --texture: conformal, directional, planar (surface.process)")
+          .one_of({"conformal", "directional", "planar"})
+          .show_default(),
+      command.add_option("--step-coverage", c->step_coverage, "Of a directional dielectric")
+          .range(0.0, 1.0)
+          .show_default(),
+      command
+          .add_option("--edge-radius", c->edge_radius,
+                      "Of the electrode's edges below walls of --texture; 0: not stated")
+          .show_default()};
+  c->of_directional = {c->of_texture[1]};
   command.add_option("--skin-layer", c->skin_layer, "d/eps of the stratum corneum in series")
       .show_default();
   command

@@ -21,11 +21,16 @@ struct HazeOptions {
   ScanOptions scan;
   std::vector<std::string> angles;
   double index = 0, fill = 0;
+  std::vector<Option> of_design, of_height;  // that only one of the two obeys
 };
 
 int solve(const HazeOptions& options) {
   if (options.design.file.empty() == options.scan.file.empty())
     throw InputError("expected a design FILE or --height FILE");
+  if (options.scan.file.empty())
+    refuse(options.of_height, "--height; a design has its own");
+  else
+    refuse(options.of_design, "a design FILE, and --height names a map");
   std::vector<double> angles;
   for (const std::string& angle : options.angles) {
     angles.push_back(parse_si(angle, "deg"));
@@ -69,19 +74,22 @@ void add_solve_haze(Command solve_command, Context& context) {
       "haze", "Haze, transmittance, gloss and colour of a texture on glass");
   auto options = std::make_shared<HazeOptions>();
   command.add_option("file", options->design.file, "Design or study file").type_name("FILE");
-  add_set_option(command, options->design.overrides);
+  options->of_design = {add_set_option(command, options->design.overrides)};
   command.add_option("--height", options->scan.file, "Heightmap instead: .npy .gsf .exr .tif .x3p")
       .type_name("FILE");
-  add_scan_options(command, options->scan);
+  options->of_height = add_scan_options(command, options->scan);
   command.add_option("--index", options->index, "Refractive index; default: the design's, or 1.46")
       .range(1.0, 5.0);
   command
       .add_option("--fill-index", options->fill,
                   "Index of what fills the texture; default: the design's, or 1, air")
       .range(1.0, 5.0);
-  command.add_option("--angle", options->angles,
-                     "From the normal, e.g. \"45 deg\"; several: their mean; default: the "
-                     "design's, or 0");
+  command
+      .add_option(
+          "--angle", options->angles,
+          "From the normal, e.g. \"45 deg\"; named again: the mean of several; default: the "
+          "design's, or 0")
+      .repeatable();
   command.add_flag("--json", options->design.json, "One JSON object, SI units");
   command.on_chosen(
       [&context, options] { context.action = [options] { return solve(*options); }; });

@@ -41,7 +41,8 @@ int solve(const Context& context, const MeanFieldCommand& options) {
   }
   std::cout << (options.json ? mean_field_json(c, r, seconds) + '\n'
                              : mean_field_text(c, r, seconds));
-  return r.point.on.pull.status == PullStatus::Collapsed ? kWorkFailed : kSuccess;
+  const bool failed = r.point.on.pull.status == PullStatus::Collapsed || r.point.yielded;
+  return failed ? kWorkFailed : kSuccess;
 }
 
 }  // namespace

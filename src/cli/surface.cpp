@@ -27,11 +27,12 @@ struct SurfaceCommand {
 // Several maps of one surface; every mistake of theirs at once.
 int show_together(const Context& context, const SurfaceCommand& command, double tip) {
   if (!command.out.empty()) throw InputError("--out: of one map alone; several are named");
+  const ScanSource how = command.scan.source();
   std::vector<SurfaceView> maps;
   Mistakes mistakes;
   for (const std::string& file : command.files) {
     mistakes.of([&] {
-      ScanSource source = command.scan.source();
+      ScanSource source = how;
       source.file = own_or_shipped(file);
       maps.push_back(view_of(source, tip));
     });

@@ -28,6 +28,7 @@ struct VerifyCommand {
   std::vector<std::string> receipts;
   int jobs = 0;
   bool geometry = false, json = false;
+  std::vector<Option> not_of_wafer;
 };
 
 // One file of a wafer is judged with all of them.
@@ -40,6 +41,7 @@ std::string folder_of_wafer(const std::string& path) {
 
 int verify_test_wafer(const Context& context, const VerifyCommand& command,
                       const std::string& folder) {
+  refuse(command.not_of_wafer, "runs and exports, and " + folder + " is a wafer");
   FileWork work(context, "checking");
   const WaferVerdict verdict = verify_wafer(folder, work.progress());
   std::cout << (command.json ? wafer_verdict_json(folder, verdict) + '\n'
@@ -122,21 +124,24 @@ void add_verify(Command app, Context& context) {
                   "Folder that `papilla export`, `wafer` or `optimize` wrote, or one file of it")
       .required()
       .type_name("FOLDER|FILE");
-  command.add_flag("--geometry", options->geometry,
-                   "What the files hold alone: nothing is simulated");
-  command.add_option("--tolerance", options->tolerance, "Largest loss of merit of the heights")
-      .check(share_mistake)
-      .show_default();
-  command
-      .add_option("--receipt", options->receipts,
-                  "Of a run: these numbers of its receipts.json alone")
-      .type_name("ID");
-  command
-      .add_option("--time", options->time,
-                  "Of a run: largest time for the model; what does not fit is said")
-      .show_default();
-  command.add_option("--jobs", options->jobs, "Of a run: evaluations at a time; 0: all processors")
-      .range(0, 4096);
+  options->not_of_wafer = {
+      command.add_flag("--geometry", options->geometry,
+                       "What the files hold alone: nothing is simulated"),
+      command.add_option("--tolerance", options->tolerance, "Largest loss of merit of the heights")
+          .check(share_mistake)
+          .show_default(),
+      command
+          .add_option("--receipt", options->receipts,
+                      "Of a run: this number of its receipts.json alone; named again: several")
+          .type_name("ID")
+          .repeatable(),
+      command
+          .add_option("--time", options->time,
+                      "Of a run: largest time for the model; what does not fit is said")
+          .show_default(),
+      command
+          .add_option("--jobs", options->jobs, "Of a run: evaluations at a time; 0: all processors")
+          .range(0, 4096)};
   command.add_flag("--json", options->json, "One JSON object on standard output");
   command.document(
       {"Asks the model again what a run of `papilla optimize` asked after its search, makes every "

@@ -21,7 +21,8 @@ struct WaferCommand {
 };
 
 int make_wafer(const Context& context, const WaferCommand& command) {
-  const WaferPlan plan = plan_wafer(command.path, command.overrides);
+  WaferPlan plan = plan_wafer(command.path, command.overrides);
+  check_conditions(plan);
   const WaferDrawing drawing = draw_wafer(plan);
   std::vector<std::string> files;
   std::vector<WaferMade> made;
@@ -29,6 +30,8 @@ int make_wafer(const Context& context, const WaferCommand& command) {
     FileWork work(context, "working out");
     const Expectations expected =
         command.no_expected ? Expectations{} : expect(plan, !command.no_model, work.progress());
+    for (const std::string& line : breakdown_lines(plan, expected))
+      plan.notes.push_back("warning: " + line);
     files = write_wafer(plan, drawing, expected, command.out);
     files.push_back(command.out + "/wafer.svg");
     write_bytes(files.back(), wafer_svg(plan));

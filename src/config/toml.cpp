@@ -18,6 +18,8 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "config/node.h"
@@ -63,46 +65,64 @@ Node convert(const toml::node& source, const std::string& file) {
   return node;
 }
 
-// A dotted key makes one table a dot, and the parser walks them recursively: thousands would end
-// the process. Counted over every run of characters that a key can be made of; a comment is none.
-void refuse_deep_keys(std::string_view text, const std::string& file) {
-  constexpr int kDeepest = 200;
-  int line = 1, dots = 0;
-  // A '#' in a quoted key begins no comment. None does in a line where a text of several lines may
-  // begin or end: what stands in quotes there is not known from the line alone.
-  char quote = 0;
-  bool comment = false, escaped = false;
-  const auto has_triple_quotes = [&](std::size_t begin) {
-    const std::string_view from = text.substr(begin);
-    const std::string_view rest = from.substr(0, from.find('\n'));
-    return rest.find("\"\"\"") != rest.npos || rest.find("'''") != rest.npos;
+// One past the text in quotes that begins at `begin`: of one line, or of several behind three
+// quotes.
+std::size_t past_quotes(std::string_view text, std::size_t begin) {
+  const char quote = text[begin];
+  const auto quotes_at = [&](std::size_t at) {
+    return std::min(text.find_first_not_of(quote, at), text.size()) - at;
   };
-  bool tripled = has_triple_quotes(0);  // this line
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  const bool tripled = quotes_at(begin) >= 3;
+  for (std::size_t i = begin + (tripled ? 3 : 1); i < text.size(); ++i) {
+    if (text[i] == '\n' && !tripled) return i;  // not TOML
+    if (text[i] == '\\' && quote == '"') {
+      if (text.substr(i + 1, 1) != "\n") ++i;
+    } else if (text[i] == quote) {
+      if (!tripled) return i + 1;
+      // Two quotes more may stand before the three that end it.
+      const std::size_t run = quotes_at(i);
+      if (run >= 3) return i + std::min<std::size_t>(run, 5);
+      i += run - 1;
+    }
+  }
+  return text.size();
+}
+
+// A dotted key makes one table a dot, and the parser walks them recursively: thousands would end
+// the process. Counted over every run of characters that a key can be made of, and over the keys
+// whose tables and lists it stands in; what stands in quotes or in a comment parts no key.
+void refuse_deep_keys(std::string_view text, const std::string& file) {
+  constexpr int kDeepest = 200, kDeepestInAll = 400;
+  std::vector<int> around{0};  // at each bracket that is open: dots of the keys that lead to it
+  int dots = 0, of_key = 0;    // of the key that is read; of the one whose value is read
+  std::size_t i = 0;
+  const auto refuse = [&](const char* message) {
+    const std::string_view before = text.substr(0, i);
+    const int line = 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
+    throw InputError({Problem{file, line, 1, "", message}});
+  };
+  while (i < text.size()) {
     const char c = text[i];
-    if (c == '\n') {
-      ++line;
-      dots = 0;
-      quote = 0;
-      comment = escaped = false;
-      tripled = has_triple_quotes(i + 1);
+    if (c == '"' || c == '\'') {
+      i = past_quotes(text, i);
       continue;
     }
-    if (comment) continue;
-    if (c == '.' && ++dots > kDeepest)
-      throw InputError({Problem{file, line, 1, "", "more than 200 dots in a key"}});
-    if (c == '=' || c == ',') dots = 0;
-    const bool quotes = c == '"' || c == '\'';
-    if (escaped) {
-      escaped = false;
-    } else if (quote != 0) {
-      escaped = c == '\\' && quote == '"';
-      if (c == quote) quote = 0;
-    } else if (quotes) {
-      quote = c;
-    } else if (c == '#') {
-      comment = !tripled;
+    if (c == '#') {
+      i = std::min(text.find('\n', i), text.size());
+      continue;
     }
+    if (c == '.') {
+      if (++dots > kDeepest) refuse("more than 200 dots in a key");
+      if (around.back() + dots > kDeepestInAll)
+        refuse("more than 400 dots in a key and those that it stands in");
+    }
+    if (c == '{' || c == '[') around.push_back(around.back() + of_key);
+    if ((c == '}' || c == ']') && around.size() > 1) around.pop_back();
+    if (c == '=')
+      of_key = std::exchange(dots, 0);
+    else if (std::string_view(",\n{}[]").find(c) != std::string_view::npos)
+      dots = of_key = 0;
+    ++i;
   }
 }
 
@@ -131,7 +151,6 @@ bool blank_line(std::string& text, int line) {
 }  // namespace
 
 Node parse_toml(std::string_view text, const std::string& file) {
-  refuse_deep_keys(text, file);
   // Lines that are wrong by themselves are left out after the first mistake, so that the next one
   // is found as well.
   constexpr std::size_t kMostMistakes = 20;
@@ -139,6 +158,7 @@ Node parse_toml(std::string_view text, const std::string& file) {
   std::string rest(text);
   try {
     while (true) {
+      refuse_deep_keys(rest, file);
       try {
         const toml::table table = toml::parse(rest, std::string_view(file));
         if (problems.empty()) return convert(table, file);

@@ -133,7 +133,7 @@ void read_settings(StudyFile& file, const std::string& where, const Node& set,
                           "expected a section, e.g. { \"surface.contact_angle\" = \"80 deg\" }");
     return;
   }
-  for (const auto& [path, node] : members_by_path(set)) {
+  for (const auto& [path, node] : file.members(set, where, {})) {
     const NumberField* field = file.numbers.find(path, *node, where);
     double si = 0;
     if (field && file.numbers.read(*field, *node, where + "." + path, si))

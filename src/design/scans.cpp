@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "geometry/measured_map.h"
+#include "geometry/texture.h"
 
 namespace papilla::design {
 namespace {
@@ -31,11 +32,18 @@ void add_scans(const Texture& texture, const std::string& section, std::vector<N
 std::string text(const DesignScan& scan) {
   const ScanChanges& c = scan.changes;
   std::string out = geometry::text(scan.file, c);
-  if (scan.taken > 0 && scan.taken < (1 - 1e-9) * std::max(c.width, c.height)) {
+  const UnitCell sides = scan.periods.value_or(UnitCell{scan.taken, scan.taken});
+  if (scan.taken > 0 && (sides.x < (1 - 1e-9) * c.width || sides.y < (1 - 1e-9) * c.height)) {
+    const std::string part =
+        scan.periods ? fmt::format(
+                           "the simulated patch of {:.4g} x {:.4g} um, whole periods of the stack, "
+                           "is the texture{}",
+                           1e6 * sides.x, 1e6 * sides.y,
+                           c.as_is ? "" : fmt::format(" ({}.at_x, at_y)", scan.section))
+                     : fmt::format("a square of {:.4g} um is the texture ({}.patch, at_x, at_y)",
+                                   1e6 * scan.taken, scan.section);
     out += fmt::format(
-        "; of its {:.4g} x {:.4g} um a square of {:.4g} um is the texture "
-        "({}.patch, at_x, at_y){}",
-        1e6 * c.width, 1e6 * c.height, 1e6 * scan.taken, scan.section,
+        "; of its {:.4g} x {:.4g} um {}{}", 1e6 * c.width, 1e6 * c.height, part,
         c.as_is ? "" : ", blended along two borders with what lies beyond, so that it repeats");
   }
   return out;
@@ -51,14 +59,21 @@ std::vector<std::string> scan_as_texture(const std::string& scan,
 }
 
 std::vector<DesignScan> scans_of(const Design& design) {
-  const double taken = facts(design.texture).free_patch.exact.value_or(0);
+  const TextureFacts known = facts(design.texture);
+  double taken = known.free_patch.exact.value_or(0);
+  std::optional<UnitCell> periods;
+  if (known.cell && taken > 0) {
+    const Grid patch = simulated_patch(design.texture, 16);  // its sides are the same on any pixels
+    periods = UnitCell{patch.lx, patch.ly};
+    taken = std::max(patch.lx, patch.ly);
+  }
   std::vector<NamedScan> named;
   add_scans(design.texture, "texture", named);
   std::vector<DesignScan> out;
   Mistakes mistakes;
   for (const NamedScan& scan : named) {
     mistakes.of([&] {
-      out.push_back({scan.source.file, changes_of_map(scan.source), taken, scan.section});
+      out.push_back({scan.source.file, changes_of_map(scan.source), taken, scan.section, periods});
     });
   }
   if (const Skin skin = scene_of(design).finger.skin; !skin.map.empty())

@@ -1,11 +1,13 @@
 // The measured maps behind a design, and what was changed of them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/rooms.h"
 #include "design/design.h"
+#include "geometry/facts.h"
 #include "geometry/scan.h"
 
 namespace papilla::design {
@@ -15,6 +17,9 @@ struct DesignScan {
   ScanChanges changes;
   double taken = 0;                 // side of the square of the map that the texture is [m]
   std::string section = "texture";  // whose `patch`, `at_x` and `at_y` choose it: or a part's of it
+  // Sides of what is taken where they are whole periods of another part of a stack [m]; `taken` is
+  // the longer one.
+  std::optional<UnitCell> periods{};
 };
 
 // What was changed of it, and where a part alone is taken.

@@ -1,5 +1,5 @@
-// What is not known of finger and model, carried to the numbers of a response: the members of the
-// finger's belief, or where it has none the covariance of its fit.
+// Propagates the uncertainty of finger and model to the numbers of a response: by the members of
+// the finger's belief or, where it has none, by the covariance of its fit.
 #pragma once
 
 #include <string>
@@ -11,8 +11,9 @@
 
 namespace papilla::estimate {
 
-// Members differ by far more than skins and pixels move their differences: with so many skins model
-// parts are good to a fifth (docs/theory/accuracy.md).
+// Skins per member. Few are enough, because the members differ by much more than skins and pixels
+// change of these differences: the error part `model` is then accurate to a fifth
+// (docs/theory/accuracy.md).
 inline constexpr int kMemberSkins = 2;
 // What members are run with: the load law, at most `skins` skins and 64 pixels.
 Fidelity belief_fidelity(const Fidelity& fidelity, int skins = kMemberSkins);
@@ -21,23 +22,25 @@ Fidelity belief_fidelity(const Fidelity& fidelity, int skins = kMemberSkins);
 std::vector<Scene> belief_scenes(const Belief& belief, const Scene& scene);
 
 // Eq. accuracy.15: runs the scene and its members on common skins, offsets and droplets. Fills
-// response.belief and the part `model` of every number; a finger without belief, or one in other
-// model options than its own, has response.belief.absent say so. Cost: members + 1 evaluations at
-// belief_fidelity. Throws as belief_of.
+// response.belief and the error part `model` of every number. If the finger has no belief, or the
+// scene has other model options than those the finger was calibrated with, it fills only
+// response.belief.absent, with the reason. Cost: members + 1 evaluations at belief_fidelity. Throws
+// as belief_of.
 void add_belief(Response& response, const Scene& scene, const Texture& texture,
                 const Fidelity& fidelity, int skins = kMemberSkins);
 
-// The part `model` of every number of a response whose belief has been run: by add_belief, or with
-// another fidelity of the same design.
+// Fills the error part `model` of every number from response.belief, which add_belief has made for
+// this response or for the same design at another fidelity.
 void state_belief(Response& response);
 
-// Why a finger says nothing of what is not known of it: neither belief nor `uncertainty`; "" where
-// it does.
+// Why the uncertainty of finger and model cannot be stated, for people: the finger has neither a
+// belief nor `uncertainty`. "" if it has one of them.
 std::string unknown_model(const Finger& finger);
-// Belief where the finger has one, else the steps of Eq. accuracy.11; those need `uncertainty`.
+// States that uncertainty: by add_belief where the finger has a belief for the scene's model
+// options, else by the steps of Eq. accuracy.11 where it has `uncertainty`, else not at all.
 void add_model_errors(Response& response, const Scene& scene, const Texture& texture,
                       const Fidelity& fidelity, int member_skins = kMemberSkins);
-// Evaluations that it takes, and what they are run with.
+// The cost of add_model_errors: how many evaluations, and at which fidelity.
 struct ModelCost {
   int runs = 0;
   Fidelity fidelity;

@@ -69,6 +69,12 @@ class VoltageSearch {
       }
       last_ = patches_.drive(v, estimator);
       const double m = last_.modulation.value;
+      if (last_.status.trouble == Trouble::ContactUnsolved ||
+          last_.status.trouble == Trouble::FieldUnsolved || last_.status.pull_in_undriven()) {
+        answer_.end = VoltageEnd::Unsound;
+        answer_.model = last_.status;
+        return 0;
+      }
       if (beyond(last_)) {
         blocked_ = last_.status;
         ceiling = v;
@@ -78,12 +84,6 @@ class VoltageSearch {
         }
         v = low_.amplitude > 0 ? std::sqrt(low_.amplitude * ceiling) : 0.5 * ceiling;
         continue;
-      }
-      if (last_.status.trouble == Trouble::ContactUnsolved ||
-          last_.status.trouble == Trouble::FieldUnsolved) {
-        answer_.end = VoltageEnd::Unsound;
-        answer_.model = last_.status;
-        return 0;
       }
       answer_.modulation = std::max(answer_.modulation, std::min(m, answer_.target));
       const bool above = m >= answer_.target;

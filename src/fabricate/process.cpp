@@ -127,6 +127,15 @@ WallSection wall_of(Texture& texture) {
   return {*role.depth, *role.wall_angle, *role.edge_radius};
 }
 
+// Rims of the etch that leave nothing of the land, between features this wide at it. The design's
+// own were held against the land that it wants, not against what an undercut leaves of it.
+void check_rims(const MaskedArray& array, const Process& process, double width) {
+  TextureProblems found;
+  add_rim_problem(array.etched, array.wanted.deep ? array.mask.period - width : width, found);
+  for (const auto& [key, message] : found)
+    throw InputError((process.edge_radius > 0 ? "process." : "") + key + ": " + message);
+}
+
 // The feature as wide at the land as gives the same width at half its depth. Eq. fabrication.5
 double width_at_land(const FeatureArray& wanted, const WallSection& wall,
                      const WallSection& etched) {
@@ -194,11 +203,12 @@ MaskedArray masked(const Texture& texture, const Process& process) {
   out.mask = out.wanted;
   out.mask.period = 1e-9 * std::round(1e9 * along * out.wanted.period);
   out.mask.width = along * out.wanted.width;
+  const double opening = process.resist_bias + process.undercut * out.etch,
+               wider = (out.wanted.deep ? 2 : -2) * opening;
+  double resist = out.mask.width;
   if (process.compensate) {
     const WallSection wall{out.etch, steep, 0};
-    const double opening = process.resist_bias + process.undercut * out.etch;
-    const double resist =
-        width_at_land(out.mask, wall, out.etched) - (out.wanted.deep ? 2 : -2) * opening;
+    resist = width_at_land(out.mask, wall, out.etched) - wider;
     if (!(resist > 0 && resist < out.mask.period)) {
       throw InputError(fmt::format(
           "no mask makes it: resist bias and undercut of {:.4g} nm at each edge leave nothing of "
@@ -206,11 +216,14 @@ MaskedArray masked(const Texture& texture, const Process& process) {
           1e9 * opening, out.wanted.drawn));
     }
     out.mask.width = drawn_width(out.mask, process.blur(), resist);
+  } else if (process.blur() > 0) {
+    resist = exposed_width(out.mask, process.blur());
   }
   out.mask.terraces.clear();
   if (!(out.mask.width >= 2e-9 && out.mask.width <= out.mask.period - 2e-9))
     throw InputError(fmt::format("no mask makes it: nothing is left of its {} or between them",
                                  out.wanted.drawn));
+  check_rims(out, process, resist + wider);
   return out;
 }
 

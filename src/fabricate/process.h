@@ -46,7 +46,8 @@ struct MaskedArray {
 double exposed_width(const FeatureArray& mask, double blur);
 
 // The mask of one array texture (holes, pillars, grooves). Throws InputError where no mask makes
-// it: nothing is left of the features, or of what is between them.
+// it: nothing is left of the features, or of what is between them; and where the rims of the etch
+// leave nothing of the land.
 MaskedArray masked(const Texture& texture, const Process& process);
 
 }  // namespace papilla::fabricate

@@ -20,6 +20,7 @@
 #include "config/describe.h"
 #include "config/reader.h"
 #include "design/study.h"
+#include "fabricate/wafer_marks.h"
 #include "geometry/io/glyphs.h"
 
 namespace papilla::fabricate {
@@ -35,9 +36,15 @@ std::vector<double> ends_of(const Variable& variable) {
   return {variable.low, variable.high};
 }
 
+// A design that has no name yet, and what is said of it by its name.
+struct Unnamed {
+  Design design;
+  std::string note;
+};
+
 // The design of a study as it is written, and with each of its numbers at either end.
-std::vector<Treatment> of_study(const Study& study, std::vector<std::string>& notes) {
-  std::vector<Treatment> out{{"D01", study.design, 0}};
+std::vector<Unnamed> of_study(const Study& study, std::vector<std::string>& notes) {
+  std::vector<Unnamed> out{{study.design, ""}};
   std::string left_out;
   for (const Variable& variable : study.variables) {
     // One wafer has one finish, one finger and one drive: textures alone differ between fields.
@@ -48,10 +55,8 @@ std::vector<Treatment> of_study(const Study& study, std::vector<std::string>& no
     for (const double value : ends_of(variable)) {
       Design design = with_settings(study.design, {{variable.path, value}});
       if (!problems(design.texture).empty() || design == study.design) continue;
-      const std::string name = fmt::format("D{:02}", out.size() + 1);
-      notes.push_back(
-          fmt::format("{}: {} = {}", name, variable.path, variable_text(variable, value)));
-      out.push_back({name, std::move(design), 0});
+      out.push_back({std::move(design),
+                     fmt::format("{} = {}", variable.path, variable_text(variable, value))});
     }
   }
   if (!left_out.empty()) notes.push_back("not varied on the wafer: " + left_out);
@@ -59,9 +64,9 @@ std::vector<Treatment> of_study(const Study& study, std::vector<std::string>& no
 }
 
 // The front of a run, of the design that is built the build sheet's rounded numbers; else its best.
-std::vector<Treatment> of_results(const std::string& path) {
+std::vector<Unnamed> of_results(const std::string& path) {
   const Folder folder(path);
-  std::vector<Treatment> out;
+  std::vector<Unnamed> out;
   const auto design_of = [&](const std::string& file) {
     return folder.has(file) ? std::optional(read_design(folder.file(file))) : std::nullopt;
   };
@@ -70,7 +75,7 @@ std::vector<Treatment> of_results(const std::string& path) {
   const auto take = [&](const Design& design) {
     const bool built = best && rounded && design.texture == best->texture &&
                        design.surface == best->surface && design.drive == best->drive;
-    out.push_back({fmt::format("D{:02}", out.size() + 1), built ? *rounded : design, 0});
+    out.push_back({built ? *rounded : design, ""});
   };
   for (int i = 1; const auto found = design_of(fmt::format("front/{:02}/design.toml", i)); ++i)
     take(*found);
@@ -80,9 +85,17 @@ std::vector<Treatment> of_results(const std::string& path) {
   return out;
 }
 
-std::vector<Treatment> designs_behind(const std::string& path, std::vector<std::string>& notes) {
+std::vector<Unnamed> designs_behind(const std::string& path, std::vector<std::string>& notes) {
   if (std::filesystem::is_directory(path)) return of_results(path);
   return of_study(read_study(path), notes);
+}
+
+// D01 and so on from a number on, the first that no other design has.
+std::string free_name(std::size_t number, std::set<std::string>& names) {
+  for (;; ++number) {
+    const std::string name = fmt::format("D{:02}", number);
+    if (names.insert(name).second) return name;
+  }
 }
 
 void check_name(const std::string& name, std::set<std::string>& taken) {
@@ -100,16 +113,25 @@ void check_name(const std::string& name, std::set<std::string>& taken) {
 
 std::vector<Treatment> treatments_of(const WaferList& list, std::vector<std::string>& notes) {
   std::vector<Treatment> out;
+  std::set<std::string> names;  // those that are given go before those that are counted
+  for (const WaferDesign& d : list.designs) names.insert(d.name);
   Mistakes mistakes;
   for (const WaferDesign& d : list.designs) {
     mistakes.of([&] {
-      const std::string name = d.name.empty() ? fmt::format("D{:02}", out.size() + 1) : d.name;
+      const std::string name = d.name.empty() ? free_name(out.size() + 1, names) : d.name;
       out.push_back({name, read_design(d.file), d.repeats});
     });
   }
   mistakes.tell();
   if (!list.designs_of.empty()) {
-    for (Treatment& t : designs_behind(list.designs_of, notes)) out.push_back(std::move(t));
+    std::vector<std::string> others;
+    std::size_t number = 0;
+    for (Unnamed& d : designs_behind(list.designs_of, others)) {
+      const std::string name = free_name(++number, names);
+      if (!d.note.empty()) notes.push_back(name + ": " + d.note);
+      out.push_back({name, std::move(d.design), 0});
+    }
+    notes.insert(notes.end(), others.begin(), others.end());
   }
   if (out.empty()) throw InputError("no design: give [[design]] or designs_of");
   std::set<std::string> taken;
@@ -300,18 +322,19 @@ std::size_t reference_of(const WaferPlan& plan) {
       fmt::format("wafer.reference: no design \"{}\"; there are {}", name, join_names(known)));
 }
 
-// What is written below a pad ends before the next one's begins.
+// What is written below a pad ends before the marks at the crossing of streets on its right. The
+// sizes stand at one crossing, but which field is beside it is for the arrangement to choose.
 void check_labels(const WaferPlan& plan) {
   const WaferShape& shape = plan.list.wafer;
+  const double room = shape.pad_width + 0.5 * shape.gap - 1e-9 * kSizesReach;
   for (const WaferField& f : plan.fields) {
     const std::size_t letters = f.id.size() + 1 + plan.treatments[f.treatment].name.size();
     const double width = static_cast<double>(letters) * kGlyphAdvance * shape.label / kGlyphRows;
-    if (width <= shape.pad_width + 0.5 * shape.gap) continue;
-    throw InputError(
-        fmt::format("wafer.label: \"{} {}\" is {:.4g} um wide, more than its pad of {:.4g} um; "
-                    "smaller letters, "
-                    "shorter names or wider pads",
-                    f.id, plan.treatments[f.treatment].name, 1e6 * width, 1e6 * shape.pad_width));
+    if (width <= room) continue;
+    throw InputError(fmt::format(
+        "wafer.label: \"{} {}\" is {:.4g} um wide, more than the {:.4g} um below its pad that "
+        "leave room for the marks; smaller letters, shorter names or wider pads",
+        f.id, plan.treatments[f.treatment].name, 1e6 * width, 1e6 * room));
   }
 }
 
@@ -349,10 +372,18 @@ WaferList read_list(const std::string& given, const std::vector<std::string>& ov
   return list;
 }
 
-std::vector<FingerState> states_of(const WaferConditions& wanted, const Design& design) {
+std::vector<std::optional<FingerState>> states_of(const WaferConditions& wanted,
+                                                  const Design& design) {
+  const Pin* pin = design.counterface.in_place();
+  if (pin && !wanted.states.empty()) {
+    throw InputError(fmt::format(
+        "conditions.states: \"{}\" stands in place of the finger and has none; leave them out",
+        pin->name));
+  }
+  if (pin) return {std::nullopt};
   if (wanted.states.empty()) return {design.finger.state};
   const std::vector<std::string>& known = finger_state_names();
-  std::vector<FingerState> out;
+  std::vector<std::optional<FingerState>> out;
   for (const std::string& name : split(wanted.states, ',')) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end()) {
@@ -391,7 +422,8 @@ void fields(FieldVisitor& v, WaferShape& s) {
 }
 
 void fields(FieldVisitor& v, WaferConditions& s) {
-  v.numbers({"load", "N", 0.001, 20, "normal forces; empty: that of each design's finger"}, s.load);
+  v.numbers({"load", "N", 0.001, 20, "normal forces; empty: that of each design's finger or pin"},
+            s.load);
   v.numbers({"humidity", "%", 0, 100, "relative; empty: those of each design"}, s.humidity);
   v.numbers({"voltage", "V", 0, 2000, "peak; empty: that of each design; 0: undriven"}, s.voltage);
   v.numbers({"frequency", "Hz", 0, 1e6, "of the drive; empty: that of each design"}, s.frequency);
@@ -455,9 +487,10 @@ std::vector<WaferCondition> conditions_of(const WaferConditions& wanted, const D
   };
   const std::vector<double> humidities =
       wanted.humidity.empty() ? design.environment.relative_humidity : wanted.humidity;
+  const double own_load = scene_of(design).finger.load;
   std::vector<WaferCondition> out;
-  for (const FingerState state : states_of(wanted, design)) {
-    for (const double load : or_own(wanted.load, design.finger.load)) {
+  for (const std::optional<FingerState> state : states_of(wanted, design)) {
+    for (const double load : or_own(wanted.load, own_load)) {
       for (const double voltage : or_own(wanted.voltage, drive.amplitude)) {
         const std::vector<double> frequencies =
             voltage > 0 ? or_own(wanted.frequency, drive.frequency) : std::vector<double>{0};

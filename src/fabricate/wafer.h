@@ -2,6 +2,7 @@
 // measured.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -103,11 +104,11 @@ WaferPlan plan_wafer(const std::string& path, const std::vector<std::string>& ov
 // A condition that a field is measured under.
 struct WaferCondition {
   double load = 0, humidity = 0, voltage = 0, frequency = 0;
-  FingerState state = FingerState::Clean;
+  std::optional<FingerState> state = FingerState::Clean;  // nothing: of a pin
 
   auto operator<=>(const WaferCondition&) const = default;
 };
-// Of a design, every combination.
+// Of a design, every combination. Throws InputError for states of a pin, which has none.
 std::vector<WaferCondition> conditions_of(const WaferConditions& wanted, const Design& design);
 
 }  // namespace papilla::fabricate

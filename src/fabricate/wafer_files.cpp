@@ -15,6 +15,7 @@
 #include "base/files.h"
 #include "base/folder.h"
 #include "base/text.h"
+#include "base/units.h"
 #include "config/writer.h"
 #include "estimate/evaluation.h"
 #include "geometry/io/drawing.h"
@@ -46,9 +47,13 @@ constexpr const char* kExpectedHead =
     ",expected_modulation,expected_modulation_error,expected_friction_off_N,"
     "expected_friction_off_error_N";
 
+std::string state_cell(std::optional<FingerState> state) {
+  return state ? finger_state_names()[static_cast<std::size_t>(*state)] : "";
+}
+
 std::string condition_cells(const WaferCondition& c) {
   return fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{}", c.load, 100 * c.humidity, c.voltage,
-                     c.frequency, finger_state_names()[static_cast<std::size_t>(c.state)]);
+                     c.frequency, state_cell(c.state));
 }
 
 std::string expected_cells(const Expected& e) {
@@ -192,6 +197,20 @@ std::vector<std::string> manifest_faults(const WaferPlan& plan, const std::strin
                       lines[first + 1], wanted[first])};
 }
 
+// Designs beside those of the wafer, as of a larger one that was written into the folder before.
+std::vector<std::string> designs_of_no_field(const std::string& folder, const WaferPlan& plan) {
+  std::set<std::string> files;
+  std::error_code missing;
+  for (const auto& entry : std::filesystem::directory_iterator(folder + "/designs", missing)) {
+    if (entry.path().extension() == ".toml")
+      files.insert("designs/" + entry.path().filename().string());
+  }
+  for (const Treatment& t : plan.treatments) files.erase(design_file(t));
+  std::vector<std::string> out;
+  for (const std::string& file : files) out.push_back(folder + "/" + file);
+  return out;
+}
+
 FileVerdict judged(const std::string& path, const std::function<std::vector<std::string>()>& work) {
   if (!std::filesystem::exists(path)) return {path, FileState::Missing, {"is missing"}};
   try {
@@ -208,14 +227,49 @@ FileVerdict judged(const std::string& path, const std::function<std::vector<std:
 // Conditions that one evaluation answers: all humidities.
 struct Scenery {
   double load, voltage, frequency;
-  FingerState state;
+  std::optional<FingerState> state;
 
   auto operator<=>(const Scenery&) const = default;
 };
 
+Scenery scenery_of(const WaferCondition& c) { return {c.load, c.voltage, c.frequency, c.state}; }
+
+std::string scenery_text(const Scenery& s) {
+  std::string out = format_quantity(s.load, "N") + ", " + format_quantity(s.voltage, "V");
+  if (s.voltage > 0) out += ", " + format_quantity(s.frequency, "Hz");
+  if (s.state) out += ", " + state_cell(s.state);
+  return out;
+}
+
+// The humidities that a design meets under each.
+std::map<Scenery, std::set<double>> sceneries_of(const WaferConditions& wanted,
+                                                 const Design& design) {
+  std::map<Scenery, std::set<double>> out;
+  for (const WaferCondition& c : conditions_of(wanted, design))
+    out[scenery_of(c)].insert(c.humidity);
+  return out;
+}
+
+Design design_under(Design design, const Scenery& scenery, const std::set<double>& humidities) {
+  design.environment = {};
+  design.environment.relative_humidity.assign(humidities.begin(), humidities.end());
+  Counterface& touch = design.counterface;
+  if (touch.in_place())
+    (touch.type == CounterfaceType::Pin ? touch.pin : touch.pen).load = scenery.load;
+  else
+    design.finger.load = scenery.load;
+  if (scenery.state) design.finger.state = *scenery.state;
+  design.drive.control = DriveControl::Voltage;
+  design.drive.amplitude = scenery.voltage;
+  if (scenery.voltage > 0) design.drive.frequency = scenery.frequency;
+  design.accuracy = {};
+  design.accuracy.level = AccuracyLevel::Draft;
+  return design;
+}
+
 Expected expected_at(const ResponsePoint& point, bool driven) {
   const double nothing = std::nan("");
-  Expected out{nothing, nothing, nothing, nothing};
+  Expected out{nothing, nothing, nothing, nothing, point.oxide_margin};
   if (point.knows_undriven())
     out.friction_off = point.friction_off.value, out.friction_error = point.friction_off.se();
   if (driven && point.knows_driven())
@@ -225,37 +279,39 @@ Expected expected_at(const ResponsePoint& point, bool driven) {
 
 std::vector<Expected> expected_of(const Treatment& treatment, const WaferConditions& wanted,
                                   bool model) {
-  const std::vector<WaferCondition> conditions = conditions_of(wanted, treatment.design);
   std::map<Scenery, std::map<double, Expected>> answers;
-  for (const WaferCondition& c : conditions)
-    answers[{c.load, c.voltage, c.frequency, c.state}][c.humidity] = {};
-  for (auto& [scenery, by_humidity] : answers) {
-    Design design = treatment.design;
-    design.environment = {};
-    design.environment.relative_humidity.clear();
-    for (const auto& [humidity, nothing] : by_humidity)
-      design.environment.relative_humidity.push_back(humidity);
-    design.finger.load = scenery.load;
-    design.finger.state = scenery.state;
-    design.drive.control = DriveControl::Voltage;
-    design.drive.amplitude = scenery.voltage;
-    if (scenery.voltage > 0) design.drive.frequency = scenery.frequency;
-    design.accuracy = {};
-    design.accuracy.level = AccuracyLevel::Draft;
+  for (const auto& [scenery, humidities] : sceneries_of(wanted, treatment.design)) {
     EvaluationOptions options;
     options.model = model;
-    const Response response = evaluate_design(design, options);
+    const Response response =
+        evaluate_design(design_under(treatment.design, scenery, humidities), options);
     std::size_t k = 0;
-    for (auto& [humidity, answer] : by_humidity)
-      answer = expected_at(response.points.at(k++), scenery.voltage > 0);
+    for (const double humidity : humidities)
+      answers[scenery][humidity] = expected_at(response.points.at(k++), response.driven);
   }
   std::vector<Expected> out;
-  for (const WaferCondition& c : conditions)
-    out.push_back(answers.at({c.load, c.voltage, c.frequency, c.state}).at(c.humidity));
+  for (const WaferCondition& c : conditions_of(wanted, treatment.design))
+    out.push_back(answers.at(scenery_of(c)).at(c.humidity));
   return out;
 }
 
 }  // namespace
+
+void check_conditions(const WaferPlan& plan) {
+  std::vector<Problem> problems;
+  for (std::size_t i = 0; i + 1 < plan.treatments.size(); ++i) {  // the flat one has no own
+    const Treatment& t = plan.treatments[i];
+    std::set<std::pair<std::string, std::string>> said;  // of the first condition alone
+    for (const auto& [scenery, humidities] : sceneries_of(plan.list.conditions, t.design)) {
+      for (const DesignProblem& p : design_problems(design_under(t.design, scenery, humidities))) {
+        if (!said.insert({p.path, p.message}).second) continue;
+        problems.push_back({"", 0, 0, p.path,
+                            fmt::format("{} at {}: {}", t.name, scenery_text(scenery), p.message)});
+      }
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+}
 
 Expectations expect(const WaferPlan& plan, bool model, const FileProgress& progress) {
   Expectations out;
@@ -265,6 +321,27 @@ Expectations expect(const WaferPlan& plan, bool model, const FileProgress& progr
                static_cast<double>(out.size()) / static_cast<double>(plan.treatments.size()));
     }
     out.push_back(expected_of(treatment, plan.list.conditions, model));
+  }
+  return out;
+}
+
+std::vector<std::string> breakdown_lines(const WaferPlan& plan, const Expectations& expected) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const Treatment& t = plan.treatments[i];
+    const std::vector<WaferCondition> conditions = conditions_of(plan.list.conditions, t.design);
+    std::map<double, double> margins;  // the least at each voltage
+    for (std::size_t k = 0; k < conditions.size(); ++k) {
+      double& least = margins.try_emplace(conditions[k].voltage, 1.0).first->second;
+      least = std::min(least, expected[i][k].oxide_margin);
+    }
+    for (const auto& [voltage, margin] : margins) {
+      if (margin >= 1) continue;
+      out.push_back(fmt::format(
+          "{} at {}: the dielectric breaks down: the field in a layer is {:.3g} times its "
+          "strength, at most {:.3g} V hold; no modulation is expected",
+          t.name, format_quantity(voltage, "V"), 1 / margin, margin * voltage));
+    }
   }
   return out;
 }
@@ -330,6 +407,8 @@ WaferVerdict verify_wafer(const std::string& folder, const FileProgress& progres
       return {"is another design than stands on the wafer"};
     }));
   }
+  for (const std::string& path : designs_of_no_field(folder, plan))
+    out.files.push_back({path, FileState::Differs, {"is of no field: an earlier wafer's?"}});
   if (progress) progress("what the process makes of " + at(kGds), 0);
   if (found) out.made = made_of_wafer(drawing, *found, plan.list.process);
   return out;

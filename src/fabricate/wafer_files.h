@@ -19,11 +19,20 @@ inline constexpr const char* kManifest = "manifest.csv";
 struct Expected {
   double modulation = 0, modulation_error = 0;  // of undriven conditions nothing
   double friction_off = 0, friction_error = 0;  // [N]
+  double oxide_margin = 0;  // strength over field of the film; infinite without a field
 };
 // [treatment][condition], in the order of conditions_of. Draft level; each design once per load,
 // state, voltage and frequency. model: the errors hold what is not known of finger and model.
 using Expectations = std::vector<std::vector<Expected>>;
 Expectations expect(const WaferPlan& plan, bool model, const FileProgress& progress = {});
+
+// Throws InputError for each condition under which the model refuses a design: no film under a
+// voltage, more of it than the source has, a pin that flows under the load.
+void check_conditions(const WaferPlan& plan);
+
+// Voltages under which a film breaks down, a line a design and voltage: nothing is expected of
+// those.
+std::vector<std::string> breakdown_lines(const WaferPlan& plan, const Expectations& expected);
 
 // Writes wafer.gds, wafer.oas, manifest.csv, wafer.toml and designs/NAME.toml into a folder, which
 // is made. Without expectations the manifest has no columns of them. Paths of what was written.

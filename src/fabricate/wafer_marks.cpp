@@ -76,9 +76,11 @@ LayoutCell alignment_mark(int level) {
 LayoutCell size_marks() {
   constexpr std::int32_t kHigh = 100 * kMicrometre, kBetween = 40 * kMicrometre,
                          kSquare = 4 * kMicrometre;
+  constexpr std::int32_t kStep = 100 * kMicrometre, kThin = 2 * kMicrometre,
+                         kShort = 50 * kMicrometre;
   constexpr int kBars = 5, kTicks = 11;
   LayoutCell out{"SIZES", {}, {}};
-  std::int32_t x = -500 * kMicrometre;
+  std::int32_t x = kThin / 2 - kSizesReach;
   const std::int32_t left = x;
   for (const std::int32_t width : kBarWidths) {
     const std::string word = fmt::format("{}", width / kMicrometre);
@@ -88,8 +90,6 @@ LayoutCell size_marks() {
       out.polygons.push_back(bar(1, x + 2 * k * width, 0, x + (2 * k + 1) * width, kHigh));
     x += std::max((2 * kBars - 1) * width, 2 * kGlyphAdvance * kSquare) + kBetween;
   }
-  constexpr std::int32_t kStep = 100 * kMicrometre, kThin = 2 * kMicrometre,
-                         kShort = 50 * kMicrometre;
   for (int k = 0; k < kTicks; ++k) {
     const bool whole = k % 5 == 0;
     // Their middles are the steps of the ruler.

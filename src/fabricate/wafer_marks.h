@@ -24,6 +24,7 @@ inline constexpr std::int32_t kMarkPitch = 300000;  // between them [nm]
 
 // Bars as wide as their gaps, of 1, 2, 3, 5 and 10 um, and a ruler of 1 mm in steps of 100 um.
 LayoutCell size_marks();
+inline constexpr std::int32_t kSizesReach = 501000;  // of all of it along x from its origin [nm]
 inline constexpr std::int32_t kBarWidths[]{1000, 2000, 3000, 5000, 10000};  // [nm]
 
 }  // namespace papilla::fabricate

@@ -194,6 +194,7 @@ Balance solve_balance(const Scene& scene, double q_patch, double relative_humidi
     const Rest before = rest(&OpenGapForces::off), under = rest(&OpenGapForces::on);
     lost = lost || !before.found || !under.found;
     out.to_fold = std::min(out.to_fold, std::sqrt(under.to_fold));
+    out.pull_in_undriven = out.pull_in_undriven || !before.found || before.to_fold < 1;
     out.stability = std::min({out.stability, before.stability, under.stability});
     off.push_back(before.pressure);
     on.push_back(under.pressure);
@@ -224,6 +225,7 @@ Balance solve_balance(const Scene& scene, double q_patch, double relative_humidi
   out.touching_off = before.touching;
   out.touching_on = under.touching;
   out.pull_in = out.pull_in || out.to_fold < 1 || out.touching_on > kClosed;
+  out.pull_in_undriven = out.pull_in_undriven || out.touching_off > kClosed;
   return out;
 }
 

@@ -27,6 +27,7 @@ struct Balance {
   // The gaps close: beyond a fold, with nearly all of the ridges in contact, or without any
   // equilibrium; the open gaps are left out then.
   bool pull_in = false;
+  bool pull_in_undriven = false;  // without the drive already
   std::vector<double> pressures;  // of patches to solve [Pa]
   PressureShares shares;
 };

@@ -150,6 +150,7 @@ class PatchSolver {
           out);
       patch.off = std::move(closed.state);
       patch.slope = closed.slope;
+      if (out.status.pull_in()) out.status.note({Trouble::UndrivenPullIn, 0, ""});
       if (patch.off.gap.empty()) return;
       patch.water_off = std::move(closed.last.water);
       note_water(patch.water_off, out);

@@ -37,9 +37,8 @@ std::optional<double> settled_load(const Total& total) {
 
 }  // namespace
 
-double AttractionLaw::load_off(double capillary) const {
-  return settled_load([&](double load) { return 1 + capillary * std::pow(load, capillary_off); })
-      .value_or(1 + capillary);
+std::optional<double> AttractionLaw::load_off(double capillary) const {
+  return settled_load([&](double load) { return 1 + capillary * std::pow(load, capillary_off); });
 }
 
 std::optional<double> AttractionLaw::load_on(double capillary, double of_field) const {
@@ -51,11 +50,12 @@ std::optional<double> AttractionLaw::load_on(double capillary, double of_field) 
 void AttractionLaw::apply(PatchResult& patch) const {
   patch.status.note(status);
   if (!(patch.load > 0)) return;
-  const double off = load_off(patch.capillary_off / patch.load);
-  const std::optional<double> on =
-      load_on(patch.capillary_on / patch.load, patch.pull / patch.load);
+  const double water = patch.capillary_off / patch.load;
+  const std::optional<double> off = load_off(water), on = load_on(patch.capillary_on / patch.load,
+                                                                  patch.pull / patch.load);
+  if (!off) patch.status.note({Trouble::UndrivenPullIn, 0, ""});
   if (!on) patch.status.note({Trouble::ClosedPullIn, 0, ""});
-  patch.capillary_off *= std::pow(off, capillary_off);
+  patch.capillary_off *= std::pow(off.value_or(1 + water), capillary_off);
   patch.capillary_on *= std::pow(on.value_or(1), capillary_on);
   patch.pull *= std::pow(on.value_or(1), pull);
   patch.retention *= retention_off;

@@ -27,7 +27,7 @@ struct AttractionLaw {
 
   // Total load over the nominal one, by the attractions on the dry gap over the nominal load:
   // before the drive, and under it; nothing: no equilibrium short of a closed gap.
-  double load_off(double capillary) const;
+  std::optional<double> load_off(double capillary) const;
   std::optional<double> load_on(double capillary, double pull) const;
 
   // A share of the way to another law.

@@ -13,26 +13,32 @@
 
 namespace papilla::forward {
 
-// Errors of every quantity at each humidity by one origin, measured on the control skins.
+// The relative error of every quantity at each humidity from one origin (grid or method), measured
+// on the control skins.
 struct MeasuredError {
   std::optional<double> ErrorParts::*origin = nullptr;
   std::vector<std::array<double, kPointQuantities.size()>> size;  // [humidity][quantity], relative
   PatchCosts costs{};
-  double seconds = 0;                  // wall time
-  std::vector<ModelStatus> pull_in{};  // [humidity] of solved areas, where the load law sees none
+  double seconds = 0;  // wall time
+  // [humidity] The pull-in that the control run with solved areas found, if any: the load law can
+  // miss it. Empty for other origins.
+  std::vector<ModelStatus> pull_in{};
 };
 
-// More skins can be added later.
+// The solved patches of one scene at all its humidities; add() appends skins that were solved
+// later.
 struct PatchSet {
   Plan plan;
   std::vector<ScaleBridge> bridges;               // one per humidity
   FieldRatios field;                              // one per humidity
-  std::vector<LoadLaws> laws;                     // one per humidity; empty: of no load law
+  std::vector<LoadLaws> laws;                     // Eq. coupling.14, one per humidity; or empty
   std::vector<std::vector<PatchResult>> results;  // [humidity][skin]
-  // [humidity][skin] The results of the other skins by the load law of their own samples, so that
-  // its scatter is in the jackknife. Empty: no law, or what it lacks is measured on control skins.
+  // [humidity][skin left out] The results of the remaining skins, with the load law refitted
+  // without that skin, so that the jackknife contains the scatter of the law. Only for the skins
+  // that the law is fitted to. Empty: there is no law, it was given, or control skins measure its
+  // error.
   std::vector<std::vector<std::vector<PatchResult>>> others;
-  std::vector<MeasuredError> errors;  // of measure_errors, like the next
+  std::vector<MeasuredError> errors;  // measure_errors fills this and `controls`
   ControlRuns controls;
   double area_factor = 1;  // on contact areas: `resolved_areas`
   double seconds = 0;      // wall time
@@ -43,13 +49,16 @@ struct PatchSet {
   void add(const PatchSet& other);  // the same scene, other skins
 };
 
-// Skins first_skin ... first_skin + skins - 1 of the fidelity, at each humidity. Parallel over
-// skins; the same bytes for any number of threads. field, laws: of other patches of the same scene;
-// empty: measured. Cost: skins x humidities x (1 or 3) contact solves, and `field_ratios`.
+// Solves skins first_skin ... first_skin + skins - 1 of the fidelity at each humidity, in parallel
+// over skins; the numbers are bit-identical for any number of threads. field, laws: taken from an
+// earlier call for the same scene; empty: found here. Cost: `field_ratios`, and for each skin,
+// humidity, patch pressure and water volume or placement 1 contact solve without tractions, up to
+// 3 in one pass, up to 1 + 2 (coupling_passes + 1) in equilibrium, the default.
 PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
                        const FieldRatios& field = {}, const std::vector<LoadLaws>& laws = {});
 
-// Friction, modulation and their causes at each humidity, of all skins and without each.
+// Combines the solved patches to friction, modulation and the areas, forces and gaps that they
+// follow from, at each humidity: from all skins, and with each skin left out in turn.
 Response respond(const Scene& scene, const Fidelity& fidelity, const PatchSet& patches);
 
 // One patch with all its fields, for pictures: skin `index` of the fidelity at one humidity, with a

@@ -13,10 +13,11 @@ ModelStatus ResponsePoint::said() const {
   return status;
 }
 
-// A pull-in under a drive is taken for the drive's, as next to all are: what was before it stands.
-// Without one it is the water's, and the numbers are those of a state on its way to a closed gap.
+// What was before a pull-in of the drive stands. Of one without a voltage the numbers are those of
+// a state on its way to a closed gap.
 bool ResponsePoint::knows_undriven() const {
-  return !(area_fraction_off.value > 1) && !(source_voltage == 0 && status.pull_in());
+  return !(area_fraction_off.value > 1) && !status.pull_in_undriven() &&
+         !(source_voltage == 0 && status.pull_in());
 }
 
 bool ResponsePoint::knows_driven() const {

@@ -20,8 +20,8 @@ namespace papilla::forward {
 struct PatchSamples {
   std::vector<double> load_off, load_on;  // [N] on the patch: preload + capillary (+ pull)
   std::vector<double> area_off, area_on;  // contact fractions of the patch
-  // Preload of a mean patch, and with what the open gaps between patches add before and under the
-  // drive [N]: the number of patches in contact goes with these.
+  // Preload of the mean patch [N]; the same plus the attraction of the open gaps between patches,
+  // with the drive off and on. The number of patches in contact is proportional to the last two.
   double preload = 0, pressed_off = 0, pressed_on = 0;
 
   bool operator==(const PatchSamples&) const = default;
@@ -43,14 +43,17 @@ struct VoltageAnswer {
 // What came first, of an answer that is not reached: "the dielectric breaks down at 500 V".
 std::string text(const VoltageAnswer& answer);
 
-// The branch of equilibria is followed to where it turns, or to so many times the voltage.
+// `pull_in` follows the branch of equilibria until its voltage has a maximum (the fold), until that
+// voltage is kFarthestPullIn times the drive's, or until the attraction is kClosingLoad times the
+// nominal load.
 inline constexpr double kFarthestPullIn = 4;
 inline constexpr double kClosingLoad = 40;
 
 // How far the drive is from the voltage at which the gap jumps shut: `pull_in_margin`.
 struct PullIn {
-  // Voltage at the fold over that of the drive; without a fold that at which the attraction is
-  // kClosingLoad times the nominal load; 0 where water alone closes the gap.
+  // Pull-in voltage over the voltage of the drive, at most kFarthestPullIn. The pull-in voltage is
+  // that of the fold; if there is no fold, the one at which the attraction is kClosingLoad times
+  // the nominal load. 0: water closes the gap without a voltage.
   Measured margin{kFarthestPullIn, {}};
   double folds = 0;  // share of the patches that have a fold
 
@@ -67,9 +70,11 @@ struct ResponsePoint : PointQuantities {
   double oxide_margin = kInfinity;  // least strength over field of a layer of the dielectric
   double peak_air_field = 0;        // [V/m]
   double source_voltage = 0;        // [V] peak: under current control what the current needs
-  double retention_gain = 0;        // [N] of the retention force, under the drive over before it
-  double strength = 0;          // tau x load-carrying area [N]: of contact, F = strength x fraction
-  double field_correction = 1;  // on the pull of the field rule. Eq. electrostatics.17
+  double retention_gain = 0;        // [N] retention force with the drive on minus that with it off
+  // Shear strength times load-carrying area [N]: contact's part of the friction is this times the
+  // contact fraction (but for a friction coefficient, Eq. friction.4).
+  double strength = 0;
+  double field_correction = 1;        // factor on the pull of the field rule. Eq. electrostatics.17
   std::optional<double> field_error;  // relative, of the pull; none: not measured
   double bridge_water_share = 0;      // share of the water that sits in bridges
   ModelStatus status;
@@ -77,8 +82,9 @@ struct ResponsePoint : PointQuantities {
   std::vector<VoltageAnswer> voltages;  // one per target asked for
   std::optional<PullIn> pull_in;        // where it was asked for
 
-  // What people are told: a voltage that the dielectric does not hold comes first, as full contact,
-  // pull-in and whatever else it leads to never happen.
+  // The status to report. If the voltage exceeds the strength of the dielectric, that is reported
+  // in place of `status`: the film breaks down before full contact, pull-in or any other
+  // consequence of that voltage can occur.
   ModelStatus said() const;
   // Whether the numbers without the drive, and under it, are those of a state that exists.
   bool knows_undriven() const;
@@ -101,19 +107,22 @@ struct TargetReport {
 // "reached", or what stopped it.
 std::string text(const TargetReport& report);
 
-// Points over humidity, and the same without each skin for the jackknife (none of one skin).
+// One point per humidity from all skins; and the same with each skin left out in turn, for the
+// jackknife (`without` is empty if there is only one skin).
 struct Resampled {
   std::vector<ResponsePoint> points;
-  std::vector<std::vector<ResponsePoint>> without;  // [skin], without samples of their own
+  std::vector<std::vector<ResponsePoint>> without;  // [skin left out][humidity]; `samples` empty
 };
 
-// The control skins of a response, run again: as it was, by solved areas where it was by the load
-// law, and on half the pixels. Empty: not run.
+// Results for the control skins, from which the error parts `grid` and `method` are measured. own:
+// those of the response itself. areas: run again with solved contact areas, if the response used
+// the load law (Estimator::Load). coarse: run again on half the pixels, with solved areas too where
+// `areas` was run. Empty: not run.
 struct ControlRuns {
   Resampled own, areas, coarse;
   double octaves = 0;  // of the skin's spectrum that the grid of `own` leaves out
-  // Of the step from half the pixels, what is missing to the limit as the texture's features are
-  // few pixels wide: 0 where they are resolved.
+  // Factor on the change from half the pixels to these: how much is still missing to the limit of
+  // fine pixels because the texture's features are only few pixels wide. 0: they are resolved.
   double coarse_features = 0;
   bool friction_by_load = false;  // Eq. friction.4
 };

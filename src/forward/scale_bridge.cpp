@@ -79,6 +79,7 @@ ScaleBridge::ScaleBridge(const Scene& scene, const Fidelity& fidelity, const Gri
       note_limit(balance_.touching_off);
     }
     if (balance_.pull_in) status_.note({Trouble::FarGapPullIn, 0, ""});
+    if (balance_.pull_in_undriven) status_.note({Trouble::UndrivenPullIn, 0, ""});
     pressures_ = balance_.pressures;
     shares_ = balance_.shares;
     mean_pressure_ = nominal_ / sum_of(shares_.nominal);

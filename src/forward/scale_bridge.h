@@ -1,5 +1,6 @@
-// From the fingertip to its patches and back: which pressures patches are solved at, and how their
-// results make up the load-carrying area. The one home of the closures.
+// From the fingertip to its patches and back: the pressures at which patches are solved, and how
+// their results combine to those of the load-carrying area. The assumption that links the two
+// scales is the closure (`model.closure`); all three closures come together here.
 #pragma once
 
 #include <memory>
@@ -13,15 +14,17 @@
 
 namespace papilla::forward {
 
-// One humidity of one scene; patches of the grid's size.
-//   uniform: every load-carrying patch has the pressure F_N / (phi A_gross); soft features bring
-//   more patches to the surface than a rigid one does. Eq. coupling.6
-//   balance: the ridges press with a distribution of pressures over the fingertip; all gaps between
-//   patches in contact pull and hold water, over this texture and film, and add to the load. Eq.
-//   coupling.7 to coupling.10
-//   persson: the ridges press with F_N / (phi_ridge A_gross) on a surface whose roughness above the
-//   patch size lets only some patches touch, at distributed pressures; the open gaps between them
-//   pull as well and add to the load. Eq. coupling.3
+// The bridge for one humidity of one scene. Patches have the size of `grid`; body: the soft
+// features of the surface, if any; levels: the heights of the texture, for `balance` alone.
+//   uniform: every patch that carries load has the pressure F_N / (phi A_gross). On soft features
+//   more patches carry load, each at less pressure, than on a rigid surface. Eq. coupling.6
+//   balance: the ridges press with a distribution of pressures over the fingertip. The open gaps
+//   between the patches in contact attract too, by the field over this texture and film and by the
+//   water in them; their attraction adds to the load. Eq. coupling.7 to coupling.10
+//   persson: the ridges press with F_N / (phi_ridge A_gross). Their roughness at wavelengths above
+//   the patch size lets only some patches touch, at distributed pressures. The field attracts
+//   across the open gaps between them too, as over a flat surface and without water, which adds to
+//   the load. Eq. coupling.3
 class ScaleBridge {
  public:
   ScaleBridge(const Scene& scene, const Fidelity& fidelity, const Grid& grid,
@@ -30,16 +33,21 @@ class ScaleBridge {
 
   const std::vector<double>& pressures() const { return pressures_; }  // to solve patches at [Pa]
   double mean_pressure() const { return mean_pressure_; }              // of patches in contact [Pa]
-  double carrying_share() const { return carrying_share_; }            // of the gross area
-  // By how much the attraction of the open gaps brings more of the ridges into contact, before and
-  // under the drive: a share that goes with the load. 1 but for the closure balance.
+  // The share of the gross area that combine() averages over: uniform: the patches in contact
+  // (phi); balance, persson: all ridges, of which only some patches are in contact.
+  double carrying_share() const { return carrying_share_; }
+  // Factor by which the attraction of the open gaps increases the number of patches in contact,
+  // with the drive off and on. That number is proportional to the load, so the factor is (load +
+  // attraction)/load. 1 for the other closures.
   double growth_off() const { return balance_.nominal > 0 ? grown(balance_.pressed_off) : 1; }
   double growth_on() const { return balance_.nominal > 0 ? grown(balance_.pressed_on) : 1; }
   // Of the closure balance; empty for others.
   const Balance& balance() const { return balance_; }
 
-  // Results at pressures() to one result for a mean patch of the carrying area: forces and contact
-  // areas are means over it, other members over its patches in contact (kPatchMembers).
+  // Combines one result per pressure, in the order of pressures(), to that of a mean patch of the
+  // carrying area, and adds the forces of the open gaps. Forces and contact areas are averaged over
+  // the whole carrying area, most other members over its patches in contact; of peaks the largest
+  // counts (kPatchMembers).
   PatchResult combine(std::span<const PatchResult> patches) const;
 
  private:

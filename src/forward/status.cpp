@@ -8,7 +8,8 @@ namespace papilla::forward {
 
 bool ModelStatus::pull_in() const {
   return trouble == Trouble::SecondPassPullIn || trouble == Trouble::ClosedPullIn ||
-         trouble == Trouble::GrowingPullIn || trouble == Trouble::FarGapPullIn;
+         trouble == Trouble::GrowingPullIn || trouble == Trouble::FarGapPullIn ||
+         trouble == Trouble::UndrivenPullIn;
 }
 
 std::string text(const ModelStatus& status) {
@@ -34,6 +35,8 @@ std::string text(const ModelStatus& status) {
       return "pull-in: the attraction outgrows the skin's resistance, the gap jumps shut";
     case Trouble::FarGapPullIn:
       return "pull-in: the gaps between patches in contact close";
+    case Trouble::UndrivenPullIn:
+      return "pull-in: load and water alone close the gap, without a voltage";
     case Trouble::PassesUsedUp:
       return fmt::format("coupling: not settled after {:.0f} passes", status.number);
     case Trouble::FullContact:

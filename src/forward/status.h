@@ -20,6 +20,7 @@ enum class Trouble {
   ClosedPullIn,      // no equilibrium short of a closed gap
   GrowingPullIn,     // the pull grows from pass to pass
   FarGapPullIn,      // the gaps between patches in contact close
+  UndrivenPullIn,    // the gap closes before the drive, by load and water alone
   PassesUsedUp,      // coupling not settled; number: passes
   FullContact,       // number: area estimate over the patch
   NearlyFlooded,     // number: share of the patch that neither water nor contact covers
@@ -36,10 +37,14 @@ struct ModelStatus {
   bool sound() const { return trouble == Trouble::None; }
   // No equilibrium under this voltage.
   bool pull_in() const;
+  // Nor without one.
+  bool pull_in_undriven() const { return trouble == Trouble::UndrivenPullIn; }
   // Keeps the first trouble, as what follows from it is no news; but for a pull-in, which no other
-  // trouble hides.
+  // trouble hides, and of these one that needs no drive.
   void note(const ModelStatus& next) {
-    if (sound() || (next.pull_in() && !pull_in())) *this = next;
+    if (sound() || (next.pull_in() && !pull_in()) ||
+        (next.pull_in_undriven() && !pull_in_undriven()))
+      *this = next;
   }
   bool operator==(const ModelStatus&) const = default;
 };

@@ -16,4 +16,10 @@ std::string text(const Conditions& at) {
   return out + ", " + finger_state_names()[static_cast<std::size_t>(at.state)];
 }
 
+std::vector<std::string> design_names(const std::vector<LabDesign>& designs) {
+  std::vector<std::string> out;
+  for (const LabDesign& d : designs) out.push_back(d.name);
+  return out;
+}
+
 }  // namespace papilla::lab

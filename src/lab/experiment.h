@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "base/rooms.h"
 #include "design/design.h"
@@ -25,6 +26,9 @@ struct LabDesign {
   Design design;
   bool choice = true;  // one of those that are decided among
 };
+
+// Their names, in the order of the lab's list.
+std::vector<std::string> design_names(const std::vector<LabDesign>& designs);
 
 struct Experiment {
   std::size_t design = 0;  // of the lab's list

@@ -110,7 +110,7 @@ Lab::Lab(const std::string& folder, int threads, std::function<void(const std::s
   table_ = std::make_unique<ResponseTable>(designs_, *model_);
   journal_ = std::make_unique<Journal>(folder_, kJournalFile, journal_key(), true);
   for (const JournalRecord& record : journal_->records())
-    entries_.push_back(read_entry(record.payload));
+    entries_.push_back(read_entry(record.payload, design_names(designs_)));
   name_choices(designs_, entries_);
 }
 
@@ -160,10 +160,10 @@ struct ToldBefore {
   std::map<std::string, ToldReading> by_key;
   std::multimap<std::string, ToldReading> by_identity;
 
-  explicit ToldBefore(const std::vector<ToldReading>& told) {
+  ToldBefore(const std::vector<ToldReading>& told, const std::vector<LabDesign>& designs) {
     for (const ToldReading& t : told) {
       add(*t.reading, t);
-      add(as_of_day(*t.reading, ""), t);
+      add(as_of_day(*t.reading, "", designs), t);
     }
   }
 
@@ -248,8 +248,12 @@ const std::vector<MemberNumbers>& Lab::worth() {
     return worth_;
   }
   const MetricExpression metric = parse_own_metric(file_.worth);
+  const auto choices =
+      std::count_if(designs_.begin(), designs_.end(), [](const LabDesign& d) { return d.choice; });
   for (const LabDesign& d : designs_) {
-    if (d.choice) worth_.push_back(model_->worth(d, metric));
+    if (!d.choice) continue;
+    const std::string which = fmt::format("{} of {}: ", worth_.size() + 1, choices);
+    worth_.push_back(model_->worth(d, metric, which));
   }
   return worth_;
 }
@@ -291,7 +295,7 @@ DecisionRecord Lab::decision(const std::string& date) {
 }
 
 void Lab::keep(JournalEntry entry) {
-  const std::string text = entry_text(entry);
+  const std::string text = entry_text(entry, design_names(designs_));
   journal_->append({fmt::format("{}", entries_.size() + 1), text});
   entries_.push_back(std::move(entry));
 }
@@ -309,14 +313,14 @@ void Lab::take_new(const std::vector<FrictionReading>& rows, const TellOptions& 
                    Told& told) const {
   const std::vector<std::string>& in_belief = belief().readings;
   const std::vector<ToldReading> before = in_force(entries_);
-  const ToldBefore known(before);
+  const ToldBefore known(before, designs_);
   std::vector<Problem> problems;
   const auto problem = [&](const FrictionReading& r, const char* key, const std::string& message) {
     problems.push_back({told.record.file, r.line, 0, key, message});
   };
   std::set<std::string> stay, of_file;
   for (const FrictionReading& row : rows) {
-    const FrictionReading r = row.day.empty() ? as_of_day(row, options.day) : row;
+    const FrictionReading r = row.day.empty() ? as_of_day(row, options.day, designs_) : row;
     auto found = known.by_key.find(r.key);
     // Of a table that grows, --day is that of the new touches; of one that is told anew, of all.
     if (found == known.by_key.end() && r.repeat > 0) {
@@ -353,7 +357,7 @@ void Lab::take_new(const std::vector<FrictionReading>& rows, const TellOptions& 
               fmt::format("not said, and repeat {} of this experiment was told of {}", r.repeat,
                           join_names({days.begin(), days.end()}, " and of ")));
     const std::string else_day = days.empty() ? options.date : *days.begin();
-    FrictionReading taken = r.day.empty() ? as_of_day(r, else_day) : r;
+    FrictionReading taken = r.day.empty() ? as_of_day(r, else_day, designs_) : r;
     if (const std::string id = identity(taken); !id.empty() && !of_file.insert(id).second)
       problem(r, "repeat",
               fmt::format("repeat {} of this experiment stands twice in the file, with two values",

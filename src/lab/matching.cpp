@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "config/columns.h"
 
 namespace papilla::lab {
 namespace {
@@ -23,6 +24,8 @@ constexpr double kRecordLoadBand = 0.25;
 constexpr double kCorrectionError = 0.5;
 // A trace's own conditions are rounded so where nothing was planned.
 constexpr double kLoadStep = 5e-3, kHumidityStep = 0.01, kVoltageStep = 1;
+// Beyond these a number in the head of a record is a slip, as in tables.
+constexpr double kMostRepeats = 1e6, kHighestFrequency = 1e9;
 
 double rounded(double value, double step) { return step * std::round(value / step); }
 
@@ -147,12 +150,34 @@ class Matcher {
       out.id = id;
       out.field = p.field;
       out.experiment = {p.experiment.design, taken(row, p.experiment)};
-      if (!row.field.empty() && !p.field.empty() && row.field != p.field)
-        problem("field",
-                fmt::format("{} stands in field {} of the plan, not {}", id, p.field, row.field));
+      check_field(id, row, out);
+      check_design(id, row, out);
       return;
     }
     unknown("experiment", id, known);
+  }
+
+  // The field that is said beside an experiment. A plan of no field leaves its column to notes of
+  // the user.
+  void check_field(const std::string& id, const MeasuredRow& row, const FrictionReading& out) {
+    const std::string field = said(row.field, options_.field);
+    if (field.empty() || field == out.field || (out.field.empty() && !row.field.empty())) return;
+    problem("field", out.field.empty() ? fmt::format("{} stands in no field, not in {}", id, field)
+                                       : fmt::format("{} stands in field {} of the plan, not {}",
+                                                     id, out.field, field));
+  }
+
+  // The design that is said of a reading. A manifest names the file of a field's design, which the
+  // lab may know by another name.
+  void check_design(const std::string& of, const MeasuredRow& row, const FrictionReading& out) {
+    const std::string name = said(row.design, options_.design);
+    const std::size_t index = design_index(name);
+    if (name.empty() || index == out.experiment.design) return;
+    if (!out.field.empty() && name.ends_with(".toml")) return;
+    if (index == context_.designs.size())
+      return unknown("design", name, design_names(context_.designs));
+    problem("design", fmt::format("{} is of {}, not {}", of,
+                                  context_.designs[out.experiment.design].name, name));
   }
 
   void by_field(const std::string& field, const MeasuredRow& row, FrictionReading& out) {
@@ -165,6 +190,7 @@ class Matcher {
     if (here.empty()) return unknown("field", field, known);
     out.field = field;
     out.experiment.design = design_index(here.front()->design);
+    check_design(field, row, out);
     std::vector<Conditions> all, planned;  // of the field; those of them that the row is near
     for (const FieldEntry* f : here) {
       all.push_back(conditions_of(*f));
@@ -209,11 +235,8 @@ class Matcher {
     if (name.empty())
       return problem("", "says no experiment, field or design: add such a column, or --experiment");
     const std::size_t index = design_index(name);
-    if (index == context_.designs.size()) {
-      std::vector<std::string> known;
-      for (const LabDesign& d : context_.designs) known.push_back(d.name);
-      return unknown("design", name, known);
-    }
+    if (index == context_.designs.size())
+      return unknown("design", name, design_names(context_.designs));
     const CandidateConditions& c = context_.file.conditions;
     const auto needed = [&](const auto& is, const auto& known, const char* what) {
       if (is) return *is;
@@ -233,16 +256,22 @@ class Matcher {
     out.experiment = {index, snapped_to_candidates(at)};
   }
 
-  // By its name in the lab, or the file that a table names.
+  // By its name in the lab, as a plan writes that, or by the file that a table names.
   std::size_t design_index(const std::string& name) const {
+    const std::vector<LabDesign>& all = context_.designs;
+    const auto place_of = [&](const auto& is) {
+      return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), is) - all.begin());
+    };
+    const std::size_t named = place_of([&](const LabDesign& d) { return d.name == name; });
+    if (named < all.size()) return named;
+    const std::size_t written = place_of([&](const LabDesign& d) {
+      std::string cell = d.name;  // no cell of a table has a comma
+      std::replace(cell.begin(), cell.end(), ',', ';');
+      return cell == name;
+    });
+    if (written < all.size()) return written;
     const std::string stem = std::filesystem::path(name).stem().string();
-    for (std::size_t i = 0; i < context_.designs.size(); ++i) {
-      if (context_.designs[i].name == name) return i;
-    }
-    for (std::size_t i = 0; i < context_.designs.size(); ++i) {
-      if (context_.designs[i].name == stem) return i;
-    }
-    return context_.designs.size();
+    return place_of([&](const LabDesign& d) { return d.name == stem; });
   }
 
   const MatchContext& context_;
@@ -261,9 +290,11 @@ void note_planned(const Matcher& matcher, Matched& out) {
                     significant(100 * kHumidityBand, 2), 100 * kLoadBand, 100 * kVoltageBand));
 }
 
-std::string key_of(const FrictionReading& r) {
-  return fmt::format("{} | {} | {} | {} | {} | {:.9g} {:.9g}", r.experiment.design,
-                     text(r.experiment.at), r.finger, r.day, r.repeat, r.off, r.on);
+// By the name of its design, whose place in the list may be another one later.
+std::string key_of(const FrictionReading& r, const std::vector<LabDesign>& designs) {
+  return fmt::format("\"{}\" | {} | {} | {} | {} | {:.9g} {:.9g}",
+                     designs[r.experiment.design].name, text(r.experiment.at), r.finger, r.day,
+                     r.repeat, r.off, r.on);
 }
 
 // What the name of a record's file says: a word of it is an experiment of the plan or a field.
@@ -281,21 +312,55 @@ void by_name(const std::string& file, const MatchContext& context, MeasuredRow& 
   }
 }
 
-// Conditions that a record has no column of, in lines before its header. A frequency there may be
-// that of the samples, so that of the drive has a name of its own.
-void by_head(const Trace& trace, MeasuredRow& row) {
-  const auto said = [&](const char* key) {
+// What the head of a record says: what it is of, and conditions that it has no column of. A
+// frequency there may be that of the samples, so that of the drive has a name of its own. Throws
+// InputError with every line whose value cannot be read.
+void by_head(const Trace& trace, const std::string& file, MeasuredRow& row) {
+  std::vector<Problem> problems;
+  const auto said = [&](const char* key, const std::string& expected, const auto& take) {
     const auto found = trace.said.find(key);
-    return found == trace.said.end() ? std::string() : found->second;
+    if (found != trace.said.end() && !found->second.empty() && !take(found->second))
+      problems.push_back(
+          {file, 0, 0, key,
+           fmt::format("\"{}\" in the head of the record: expected {}", found->second, expected)});
   };
-  if (const auto humidity = parse_quantity(said("humidity")); humidity && humidity->unit == "%")
-    row.relative_humidity = humidity->si;
-  if (const auto carrier = parse_quantity(said("carrier"));
-      carrier && find_unit(carrier->unit)->same_dimension(*find_unit("Hz")))
-    row.frequency = carrier->si;
+  for (const auto& [key, target] :
+       {std::pair("experiment", &row.experiment), std::pair("field", &row.field),
+        std::pair("design", &row.design), std::pair("finger", &row.finger),
+        std::pair("day", &row.day)}) {
+    const auto found = trace.said.find(key);
+    if (found != trace.said.end() && !found->second.empty()) *target = found->second;
+  }
+  said("repeat", "a whole number from 1 on", [&](const std::string& text) {
+    const auto number = cell_number(text);
+    if (!number || !(*number >= 1 && *number <= kMostRepeats) || *number != std::floor(*number))
+      return false;
+    row.repeat = static_cast<int>(*number);
+    return true;
+  });
+  const auto quantity = [](const std::string& text, const char* unit, double most) {
+    const auto q = parse_quantity(text);
+    const bool fits =
+        q && q->si >= 0 && q->si <= most &&
+        (*unit == '%' ? q->unit == unit : find_unit(q->unit)->same_dimension(*find_unit(unit)));
+    return fits ? std::optional(q->si) : std::nullopt;
+  };
+  said("humidity", "0 to 100 %, as \"75 %\"", [&](const std::string& text) {
+    row.relative_humidity = quantity(text, "%", 1);
+    return row.relative_humidity.has_value();
+  });
+  said("carrier", "a frequency, as \"5 kHz\"", [&](const std::string& text) {
+    row.frequency = quantity(text, "Hz", kHighestFrequency);
+    return row.frequency.has_value();
+  });
   const std::vector<std::string>& names = finger_state_names();
-  if (const auto state = std::find(names.begin(), names.end(), said("state")); state != names.end())
+  said("state", join_names(names), [&](const std::string& text) {
+    const auto state = std::find(names.begin(), names.end(), text);
+    if (state == names.end()) return false;
     row.state = static_cast<FingerState>(state - names.begin());
+    return true;
+  });
+  if (!problems.empty()) throw InputError(problems);
 }
 
 // The friction at the planned load, where the finger pressed a little otherwise: in proportion.
@@ -335,7 +400,7 @@ Matched match_table(const MeasuredTable& table, const MatchContext& context,
         row.load.value_or(reading->experiment.at.load),
         row.relative_humidity.value_or(reading->experiment.at.relative_humidity),
         row.voltage.value_or(reading->experiment.at.voltage), reading->off, reading->on);
-    reading->key = key_of(*reading);
+    reading->key = key_of(*reading, context.designs);
     reading->key += fmt::format(" | {}", ++seen[reading->key]);
     out.readings.push_back(std::move(*reading));
   }
@@ -348,16 +413,7 @@ Matched match_trace(const Trace& trace, const TraceReading& reading, const Match
                     const TellOptions& options, const std::string& file) {
   MeasuredRow row;
   by_name(file, context, row);
-  for (const auto& [key, target] :
-       {std::pair("experiment", &row.experiment), std::pair("field", &row.field),
-        std::pair("design", &row.design), std::pair("finger", &row.finger),
-        std::pair("day", &row.day)}) {
-    const auto found = trace.said.find(key);
-    if (found != trace.said.end()) *target = found->second;
-  }
-  by_head(trace, row);
-  if (const auto repeat = trace.said.find("repeat"); repeat != trace.said.end())
-    row.repeat = std::max(0, std::atoi(repeat->second.c_str()));
+  by_head(trace, file, row);
   row.load = rounded(reading.load, kLoadStep);
   if (reading.relative_humidity)
     row.relative_humidity = rounded(*reading.relative_humidity, kHumidityStep);
@@ -381,16 +437,17 @@ Matched match_trace(const Trace& trace, const TraceReading& reading, const Match
                     significant(reading.load, 3), significant(found->experiment.at.load, 3))}});
   to_load(*found, reading.load, out.notes);
   note_planned(matcher, out);
-  found->key = key_of(*found) + " | record";
+  found->key = key_of(*found, context.designs) + " | record";
   out.readings.push_back(std::move(*found));
   return out;
 }
 
-FrictionReading as_of_day(FrictionReading reading, const std::string& day) {
+FrictionReading as_of_day(FrictionReading reading, const std::string& day,
+                          const std::vector<LabDesign>& designs) {
   const std::size_t which = reading.key.rfind(" | ");  // of several alike, or a record
   const std::string tail = which == std::string::npos ? "" : reading.key.substr(which);
   reading.day = day;
-  reading.key = key_of(reading) + tail;
+  reading.key = key_of(reading, designs) + tail;
   return reading;
 }
 

@@ -45,6 +45,7 @@ Matched match_trace(const Trace& trace, const TraceReading& reading, const Match
                     const TellOptions& options, const std::string& file);
 
 // The same reading as of another day, "": as if none were said. Its key follows.
-FrictionReading as_of_day(FrictionReading reading, const std::string& day);
+FrictionReading as_of_day(FrictionReading reading, const std::string& day,
+                          const std::vector<LabDesign>& designs);
 
 }  // namespace papilla::lab

@@ -190,6 +190,11 @@ Deviations deviations_of(const Design& design, std::size_t members) {
   const auto own = static_cast<std::size_t>(skins);
   return {own, own + members * static_cast<std::size_t>(std::min(skins, kReadingSkins))};
 }
+// A design as an answer depends on it.
+std::string asked_of(const Design& design) {
+  return write_toml(to_table(design)) + maps_state(design.texture, design.finger);
+}
+
 // Those of the designs of a seed and a level are the same.
 std::string skins_of(const Design& design) {
   const Fidelity f = fidelity_of(design);
@@ -198,49 +203,82 @@ std::string skins_of(const Design& design) {
 
 }  // namespace
 
-std::vector<double> MemberModel::kept(const std::string& question, std::size_t size,
-                                      const std::function<std::vector<double>()>& make) {
-  const std::string key = text_hash(question);
-  if (const std::string* found = kept_.find(key)) {
-    std::vector<double> answer = read_numbers(*found);
-    if (answer.size() == size) return answer;
-  }
-  std::vector<double> answer = make();
-  answer.resize(size, 0);  // of one skin: no deviations
-  ++evaluated_;
-  kept_.keep(key, written(answer));
+std::optional<std::vector<double>> MemberModel::kept(const std::string& question,
+                                                     std::size_t size) const {
+  const std::string* found = kept_.find(text_hash(question));
+  if (!found) return std::nullopt;
+  std::vector<double> answer = read_numbers(*found);
+  if (answer.size() != size) return std::nullopt;
   return answer;
 }
 
-MemberFriction MemberModel::friction(const LabDesign& design, const Conditions& at) {
-  const Design there = under_conditions(design.design, at);
-  const std::size_t members = belief_.members.size();
-  const Deviations deviations = deviations_of(there, members);
-  const std::size_t size = 1 + members + deviations.all;
-  const std::vector<double> answer =
-      kept("friction with what skins leave open\n" + write_toml(to_table(there)), 2 * size, [&] {
-        if (note_) note_(fmt::format("{}, {}, at {} members", design.name, text(at), members));
-        const DesignRuns runs = runs_of(there, belief_, threads_);
-        std::vector<double> out = listed(numbers_of(runs, moved_off)),
-                            on = listed(numbers_of(runs, moved_on));
-        out.insert(out.end(), on.begin(), on.end());
-        return out;
-      });
-  return {unlisted(answer.data(), members, deviations, skins_of(there)),
-          unlisted(answer.data() + size, members, deviations, skins_of(there))};
+std::vector<double> MemberModel::kept_or_made(const std::string& question, std::size_t size,
+                                              const std::function<std::vector<double>()>& make) {
+  if (const auto known = kept(question, size)) return *known;
+  std::vector<double> answer = make();
+  answer.resize(size, 0);  // of one skin: no deviations
+  ++evaluated_;
+  kept_.keep(text_hash(question), written(answer));
+  return answer;
 }
 
-MemberNumbers MemberModel::worth(const LabDesign& design, const MetricExpression& expression) {
+namespace {
+
+// Friction of a design off and on, as it is kept.
+struct FrictionAnswer {
+  Design there;
+  std::size_t members;
+  Deviations deviations;
+
+  FrictionAnswer(const LabDesign& design, const Conditions& at, const Belief& belief)
+      : there(under_conditions(design.design, at)),
+        members(belief.members.size()),
+        deviations(deviations_of(there, members)) {}
+
+  std::string question() const { return "friction with what skins leave open\n" + asked_of(there); }
+  std::size_t each() const { return 1 + members + deviations.all; }
+  MemberFriction read(const std::vector<double>& answer) const {
+    const std::string skins = skins_of(there);
+    return {unlisted(answer.data(), members, deviations, skins),
+            unlisted(answer.data() + each(), members, deviations, skins)};
+  }
+};
+
+}  // namespace
+
+std::optional<MemberFriction> MemberModel::kept_friction(const LabDesign& design,
+                                                         const Conditions& at) const {
+  const FrictionAnswer of(design, at, belief_);
+  const auto answer = kept(of.question(), 2 * of.each());
+  return answer ? std::optional(of.read(*answer)) : std::nullopt;
+}
+
+MemberFriction MemberModel::friction(const LabDesign& design, const Conditions& at,
+                                     const std::string& which) {
+  const FrictionAnswer of(design, at, belief_);
+  return of.read(kept_or_made(of.question(), 2 * of.each(), [&] {
+    if (note_)
+      note_(fmt::format("{}{}, {}, at {} members", which, design.name, text(at), of.members));
+    const DesignRuns runs = runs_of(of.there, belief_, threads_);
+    std::vector<double> out = listed(numbers_of(runs, moved_off)),
+                        on = listed(numbers_of(runs, moved_on));
+    out.insert(out.end(), on.begin(), on.end());
+    return out;
+  }));
+}
+
+MemberNumbers MemberModel::worth(const LabDesign& design, const MetricExpression& expression,
+                                 const std::string& which) {
   Design own = design.design;
   own.finger.belief.clear();
   const std::size_t members = belief_.members.size();
   const Deviations deviations = deviations_of(own, members);
-  const std::vector<double> answer = kept(
-      "worth with what skins leave open " + metric_text(expression) + "\n" +
-          write_toml(to_table(own)),
+  const std::vector<double> answer = kept_or_made(
+      "worth with what skins leave open " + metric_text(expression) + "\n" + asked_of(own),
       1 + members + deviations.all, [&] {
         if (note_)
-          note_(fmt::format("{}: {} at {} members", design.name, metric_text(expression), members));
+          note_(fmt::format("{}{}, {}, at {} members", which, design.name, metric_text(expression),
+                            members));
         const double sign = better_direction(expression) == Better::Lower ? -1 : 1;
         const bool size = keeps_sign(expression.summary, expression.metric);
         const auto number = [&](const Points& points) {

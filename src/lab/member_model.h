@@ -1,8 +1,10 @@
-// What every member of a belief says of a design: friction under conditions, worth under the
-// design's own. Answers are kept in a file, so that nothing is evaluated twice.
+// Evaluates a design at every member of a belief: its friction under given conditions, its worth at
+// the design's own drive and humidities. Answers are kept in a file, so that nothing is evaluated
+// twice.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,42 +18,52 @@
 
 namespace papilla::lab {
 
-// A number of a design over belief. NaN where a member has no such state.
+// One number of a design at every member of a belief. NaN: the number does not exist at that
+// member, for example because the gap is pulled in there.
 struct MemberNumbers {
   std::vector<double> at;  // [member]
-  double own = 0;          // by the design's own finger at its own level
-  Sampling sampling;       // of that
-  // Deviations of `sampling` by the skins of the own level, which come first; as many of each
-  // member's move follow, member by member.
+  double own = 0;          // with the design's own finger, at the design's own accuracy level
+  Sampling sampling;       // what the skins leave open of `own` and of the moves of the members
+  // How many entries of sampling.deviations, the first ones, are of the skins of the design's own
+  // accuracy level. The entries of the skins that the members are run on follow, member by member,
+  // the same number for each member.
   std::size_t own_skins = 0;
 };
 // Of numbers above 0: their logarithms.
 MemberNumbers logarithms(const MemberNumbers& numbers);
 
-// Of one experiment [N]; on of an undriven one: NaN.
+// Friction of one experiment [N]. Without a voltage `on` has no meaning and is not used.
 struct MemberFriction {
   MemberNumbers off, on;
 };
 
 class MemberModel {
  public:
-  // folder: where answers are kept; empty: they are not.
+  // folder: where answers are kept between runs; empty: nothing is kept. note: told of each
+  // evaluation before it begins.
   MemberModel(Belief belief, const std::string& folder, int threads,
               std::function<void(const std::string&)> note = {});
 
   const Belief& belief() const { return belief_; }
   int evaluated() const { return evaluated_; }
 
-  // An evaluation of each member. One humidity at a time, though several would share work: the
-  // contact of a humidity starts from that of the one before, so an answer would depend, within
-  // the tolerance of the contact, on what else was asked.
-  MemberFriction friction(const LabDesign& design, const Conditions& at);
-  // Of the design at its own drive and humidities, higher is better.
-  MemberNumbers worth(const LabDesign& design, const MetricExpression& expression);
+  // Evaluates the design at every member, at one humidity. Several humidities in one call would
+  // share work, but contact at a humidity starts from that at the one before, so an answer would
+  // depend, within the tolerance of the contact, on what else was asked. which: prefix of the
+  // progress note, as "3 of 12: ".
+  MemberFriction friction(const LabDesign& design, const Conditions& at,
+                          const std::string& which = "");
+  // The answer of friction() if it is kept already; evaluates nothing.
+  std::optional<MemberFriction> kept_friction(const LabDesign& design, const Conditions& at) const;
+  // The worth of the design at its own drive and humidities: the value of the expression, negated
+  // where lower is better, so that higher is always better.
+  MemberNumbers worth(const LabDesign& design, const MetricExpression& expression,
+                      const std::string& which = "");
 
  private:
-  std::vector<double> kept(const std::string& question, std::size_t size,
-                           const std::function<std::vector<double>()>& make);
+  std::optional<std::vector<double>> kept(const std::string& question, std::size_t size) const;
+  std::vector<double> kept_or_made(const std::string& question, std::size_t size,
+                                   const std::function<std::vector<double>()>& make);
 
   Belief belief_;
   std::string belief_text_;

@@ -1,6 +1,9 @@
 #include "lab/records.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -10,8 +13,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(const Experiment& e) {
-  return {{"design", e.design},
+using Names = std::vector<std::string>;  // of the lab's designs
+
+Json json_of(const Experiment& e, const Names& designs) {
+  return {{"design", designs.at(e.design)},
           {"load", e.at.load},
           {"humidity", e.at.relative_humidity},
           {"voltage", e.at.voltage},
@@ -27,9 +32,51 @@ Named named(const Json& j, const std::vector<std::string>& names, const char* no
   return static_cast<Named>(found - names.begin());
 }
 
-Experiment experiment_of(const Json& j) {
+[[noreturn]] void refuse_list(const std::string& message) {
+  throw InputError({Problem{"lab.toml", 0, 0, "design", message}});
+}
+
+[[noreturn]] void refuse_places() {
+  refuse_list(
+      "the list is another one than when its designs were planned and measured, and an older "
+      "program has told them apart by their places: put back what was taken off, under its name "
+      "and in its place; choice = false leaves a design out of the decision");
+}
+
+const std::string& name_at(std::size_t place, const Names& designs) {
+  if (place >= designs.size()) refuse_places();
+  return designs[place];
+}
+
+std::size_t place_of(const std::string& name, const Names& designs) {
+  const auto found = std::find(designs.begin(), designs.end(), name);
+  if (found == designs.end())
+    refuse_list(fmt::format(
+        "\"{}\" was planned or measured and is not in the list any more: put it back under its "
+        "name; choice = false leaves it out of the decision",
+        name));
+  return static_cast<std::size_t>(found - designs.begin());
+}
+
+std::size_t design_of(const Json& j, const Names& designs) {
+  if (!j.is_number_unsigned()) return place_of(j.get<std::string>(), designs);
+  const auto place = j.get<std::size_t>();
+  name_at(place, designs);
+  return place;
+}
+
+// That of an older program begins with the place of the design.
+std::string key_of_name(const std::string& key, const Names& designs) {
+  std::size_t place = 0;
+  const char* const end = key.data() + key.size();
+  const auto [rest, error] = std::from_chars(key.data(), end, place);
+  if (error != std::errc()) return key;
+  return fmt::format("\"{}\"{}", name_at(place, designs), std::string(rest, end));
+}
+
+Experiment experiment_of(const Json& j, const Names& designs) {
   Experiment e;
-  e.design = j.at("design");
+  e.design = design_of(j.at("design"), designs);
   e.at.load = j.at("load");
   e.at.relative_humidity = j.at("humidity");
   e.at.voltage = j.at("voltage");
@@ -59,10 +106,10 @@ std::vector<Foreseen> outcomes_of(const Json& j) {
   return out;
 }
 
-Json json_of(const PlannedExperiment& p) {
+Json json_of(const PlannedExperiment& p, const Names& designs) {
   return {{"id", p.id},
           {"field", p.field},
-          {"experiment", json_of(p.experiment)},
+          {"experiment", json_of(p.experiment, designs)},
           {"repeats", p.repeats},
           {"gain", p.gain},
           {"off", json_of(p.off)},
@@ -71,7 +118,7 @@ Json json_of(const PlannedExperiment& p) {
           {"expected_on", p.expected_on}};
 }
 
-Json json_of(const PlanRecord& p) {
+Json json_of(const PlanRecord& p, const Names& designs) {
   Json out{{"date", p.date},
            {"aim", aim_names()[static_cast<std::size_t>(p.aim)]},
            {"experiments", Json::array()},
@@ -84,11 +131,12 @@ Json json_of(const PlanRecord& p) {
     out["stop_reason"] = stop_reason_names()[static_cast<std::size_t>(*p.stop_reason)];
   if (p.ended) out["ended"] = batch_end_names()[static_cast<std::size_t>(*p.ended)];
   if (p.shortest > 0) out["shortest"] = p.shortest;
-  for (const PlannedExperiment& e : p.experiments) out["experiments"].push_back(json_of(e));
+  for (const PlannedExperiment& e : p.experiments)
+    out["experiments"].push_back(json_of(e, designs));
   return out;
 }
 
-PlanRecord plan_of(const Json& j) {
+PlanRecord plan_of(const Json& j, const Names& designs) {
   PlanRecord p;
   p.date = j.at("date");
   p.aim = named<Aim>(j.at("aim"), aim_names(), "an aim that is none");
@@ -104,7 +152,7 @@ PlanRecord plan_of(const Json& j) {
     p.ended = named<BatchEnd>(j.at("ended"), batch_end_names(), "an end of a batch that is none");
   p.shortest = j.value("shortest", 0.0);
   for (const Json& e : j.at("experiments"))
-    p.experiments.push_back({e.at("id"), e.at("field"), experiment_of(e.at("experiment")),
+    p.experiments.push_back({e.at("id"), e.at("field"), experiment_of(e.at("experiment"), designs),
                              e.at("repeats"), e.at("gain"), outcomes_of(e.at("off")),
                              outcomes_of(e.at("on")),
                              e.at("expected_off").get<std::vector<double>>(),
@@ -112,11 +160,11 @@ PlanRecord plan_of(const Json& j) {
   return p;
 }
 
-Json json_of(const TellRecord& t) {
+Json json_of(const TellRecord& t, const Names& designs) {
   Json out{{"date", t.date},   {"file", t.file},   {"sha256", t.sha256},
            {"trace", t.trace}, {"notes", t.notes}, {"readings", Json::array()}};
   for (const FrictionReading& r : t.readings)
-    out["readings"].push_back({{"experiment", json_of(r.experiment)},
+    out["readings"].push_back({{"experiment", json_of(r.experiment, designs)},
                                {"id", r.id},
                                {"field", r.field},
                                {"finger", r.finger},
@@ -132,11 +180,12 @@ Json json_of(const TellRecord& t) {
   return out;
 }
 
-TellRecord tell_of(const Json& j) {
+TellRecord tell_of(const Json& j, const Names& designs) {
   TellRecord t{j.at("date"), j.at("file"), j.at("sha256"), j.at("trace"), {}, j.at("notes")};
-  t.replaced = j.value("replaced", t.replaced);
+  for (const std::string& key : j.value("replaced", t.replaced))
+    t.replaced.push_back(key_of_name(key, designs));
   for (const Json& r : j.at("readings")) {
-    FrictionReading one{experiment_of(r.at("experiment")),
+    FrictionReading one{experiment_of(r.at("experiment"), designs),
                         r.at("id"),
                         r.at("field"),
                         r.at("finger"),
@@ -147,11 +196,31 @@ TellRecord tell_of(const Json& j) {
                         r.at("on"),
                         r.at("on_sd"),
                         r.at("line"),
-                        r.at("key"),
+                        key_of_name(r.at("key").get<std::string>(), designs),
                         {}};
     t.readings.push_back(std::move(one));
   }
   return t;
+}
+
+// Whether a record has its designs by their places.
+bool by_places(const Json& entry) {
+  const auto first_of = [&](const char* record, const char* list) {
+    if (!entry.contains(record) || entry.at(record).at(list).empty()) return false;
+    return entry.at(record).at(list).at(0).at("experiment").at("design").is_number();
+  };
+  return first_of("plan", "experiments") || first_of("tell", "readings");
+}
+
+// The places of then are those of now only where the choices of then, whose names are known, still
+// stand in their order.
+void check_places(const DecisionRecord& d, const Names& designs) {
+  auto from = designs.begin();
+  for (const std::string& name : d.designs) {
+    from = std::find(from, designs.end(), name);
+    if (from == designs.end()) refuse_places();
+    ++from;
+  }
 }
 
 Json json_of(const DecisionRecord& d) {
@@ -189,21 +258,22 @@ const std::vector<std::string>& stop_reason_names() {
   return names;
 }
 
-std::string entry_text(const JournalEntry& entry) {
+std::string entry_text(const JournalEntry& entry, const std::vector<std::string>& designs) {
   Json out = Json::object();
-  if (entry.plan) out["plan"] = json_of(*entry.plan);
-  if (entry.tell) out["tell"] = json_of(*entry.tell);
+  if (entry.plan) out["plan"] = json_of(*entry.plan, designs);
+  if (entry.tell) out["tell"] = json_of(*entry.tell, designs);
   if (entry.decision) out["decision"] = json_of(*entry.decision);
   return out.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-JournalEntry read_entry(const std::string& text) {
+JournalEntry read_entry(const std::string& text, const std::vector<std::string>& designs) {
   JournalEntry out;
   try {
     const Json j = Json::parse(text);
-    if (j.contains("plan")) out.plan = plan_of(j.at("plan"));
-    if (j.contains("tell")) out.tell = tell_of(j.at("tell"));
+    if (j.contains("plan")) out.plan = plan_of(j.at("plan"), designs);
+    if (j.contains("tell")) out.tell = tell_of(j.at("tell"), designs);
     if (j.contains("decision")) out.decision = decision_of(j.at("decision"));
+    if (out.decision && by_places(j)) check_places(*out.decision, designs);
   } catch (const Json::exception&) {
     throw InputError("a record of the journal that this program has not written");
   }

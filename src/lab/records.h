@@ -53,7 +53,7 @@ struct FrictionReading {
   int repeat = 0;
   double off = 0, off_sd = 0, on = 0, on_sd = 0;  // [N]; 0: not measured
   int line = 0;                                   // of the table; 0: a trace
-  std::string key;                                // what it is, and which of several alike
+  std::string key;  // what it is of its design, which it names, and which of several alike
   std::string row;  // as its table has it (reading_text), before it was taken as planned
 };
 
@@ -87,8 +87,11 @@ struct JournalEntry {
   std::optional<DecisionRecord> decision;
 };
 
-std::string entry_text(const JournalEntry& entry);
-// Throws InputError for what this program has not written.
-JournalEntry read_entry(const std::string& text);
+// designs: the names of the lab's list. A record names its designs, so that it is of the same ones
+// wherever they stand in the list later.
+std::string entry_text(const JournalEntry& entry, const std::vector<std::string>& designs);
+// Throws InputError for what this program has not written, and for a design that is not in the list
+// any more. Records of an older program have designs by their places in the list.
+JournalEntry read_entry(const std::string& text, const std::vector<std::string>& designs);
 
 }  // namespace papilla::lab

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
 
 namespace papilla::lab {
 namespace {
@@ -15,22 +16,34 @@ std::string cell_key(const Experiment& e) {
 
 }  // namespace
 
-const MemberFriction& ResponseTable::friction(const Experiment& e) {
-  const std::string key = cell_key(e);
-  auto found = known_.find(key);
-  if (found == known_.end())
-    found = known_.emplace(key, model_.friction(designs_[e.design], e.at)).first;
-  return found->second;
+// Those that are kept first, so that it can be said how many are left to evaluate.
+void ResponseTable::know(const std::vector<Experiment>& experiments) {
+  std::vector<const Experiment*> open;
+  std::set<std::string> seen;
+  for (const Experiment& e : experiments) {
+    const std::string key = cell_key(e);
+    if (known_.contains(key) || !seen.insert(key).second) continue;
+    if (auto kept = model_.kept_friction(designs_[e.design], e.at))
+      known_.emplace(key, std::move(*kept));
+    else
+      open.push_back(&e);
+  }
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const Experiment& e = *open[i];
+    known_.emplace(cell_key(e), model_.friction(designs_[e.design], e.at,
+                                                fmt::format("{} of {}: ", i + 1, open.size())));
+  }
 }
 
 void ResponseTable::lay(const std::vector<Experiment>& experiments) {
   cells_.clear();
   responses_.clear();
   sampling_.clear();
+  know(experiments);
   for (const Experiment& e : experiments) {
     const auto [place, is_new] = cells_.try_emplace(cell_key(e));
     if (!is_new) continue;
-    const MemberFriction& found = friction(e);
+    const MemberFriction& found = known_.at(place->first);
     MeasurableCell& cell = place->second;
     cell.off = add_row(found.off);
     if (e.at.driven()) cell.on = add_row(found.on);

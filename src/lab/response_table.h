@@ -33,12 +33,12 @@ class ResponseTable {
   const std::vector<Sampling>& sampling() const { return sampling_; }
 
  private:
-  const MemberFriction& friction(const Experiment& experiment);
+  void know(const std::vector<Experiment>& experiments);
   std::optional<std::size_t> add_row(const MemberNumbers& friction);
 
   const std::vector<LabDesign>& designs_;
   MemberModel& model_;
-  std::map<std::string, MemberFriction> known_;
+  std::map<std::string, MemberFriction> known_;  // by cell
   std::map<std::string, MeasurableCell> cells_;
   std::vector<std::vector<double>> responses_;
   std::vector<Sampling> sampling_;

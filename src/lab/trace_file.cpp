@@ -58,14 +58,18 @@ class TraceReader {
     problems_.push_back({file_, lines_.number(), 0, key, message});
   }
 
-  // "field: A3" or "field = A3"
+  // "field: A3", "Field: A3" or "field = A3"
   void say(std::string_view line) {
     const std::size_t mark = line.find_first_of(":=");
     if (mark == std::string_view::npos) return;
     std::vector<std::string_view> key, value;
     split_cells(line.substr(0, mark), '\n', key);
     split_cells(line.substr(mark + 1), '\n', value);
-    out_.said[std::string(key.front())] = std::string(value.front());
+    std::string name(key.front());
+    for (char& c : name) {
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    out_.said[name] = std::string(value.front());
   }
 
   void header(const std::vector<std::string_view>& cells) {

@@ -13,7 +13,7 @@ namespace papilla::lab {
 // SI; one number a sample. A column that the file has not is empty.
 struct Trace {
   std::vector<double> time, tangential, normal, voltage, humidity, position;
-  std::map<std::string, std::string> said;  // "# field: A3" before the header
+  std::map<std::string, std::string> said;  // "# Field: A3" before the header: "field" to "A3"
   std::vector<std::string> notes;           // what was found wrong and how it was taken, for people
 
   std::size_t size() const { return time.size(); }

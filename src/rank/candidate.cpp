@@ -40,6 +40,13 @@ bool looked_at(const RankOptions& options) {
                      [](const Criterion& c) { return c.info().appearance; });
 }
 
+// A finger is in the state that is asked for; what stands in its place has none.
+Scene scene_in(const Design& design, FingerState state) {
+  Scene scene = scene_of(design);
+  if (!design.counterface.in_place()) scene.finger.state = state;
+  return scene;
+}
+
 // The mean over regions; of one that has no numbers, that.
 Optics mean_look(const std::vector<Optics>& regions) {
   Optics out = regions.front();
@@ -58,7 +65,8 @@ Candidate::Candidate(const Regions& regions, FingerState state, const RankOption
     : regions_(regions),
       design_(regions.front()),
       options_(options),
-      scene_(scene_of(design_)),
+      state_(state),
+      scene_(scene_in(design_, state)),
       fidelity_(fidelity_of(design_)) {
   for (const Criterion& c : options.criteria) {
     const auto* look = std::get_if<LookMetric>(&c.expression.metric);
@@ -68,7 +76,6 @@ Candidate::Candidate(const Regions& regions, FingerState state, const RankOption
           "view.panel.subpixel_height");
     }
   }
-  scene_.finger.state = state;
   fidelity_.threads = options.threads;
   // A region that met no skin yet would be in no number.
   fidelity_.skins = std::max(options.batch, static_cast<int>(regions.size()));
@@ -100,10 +107,14 @@ void Candidate::look_on() {
 }
 
 void Candidate::extend() {
-  solve([](Scene&) {}, fidelity_, patches_, known_);
-  const int n = skins();
+  // A look takes no finger that presses.
+  if (options_.felt()) solve([](Scene&) {}, fidelity_, patches_, known_);
+  skins_ += fidelity_.skins;
+  const int n = skins_;
   look_on();
-  Response response = respond(scene_, fidelity_, patches_);
+  Response response;
+  response.driven = scene_.drive.driven();
+  if (options_.felt()) response = respond(scene_, fidelity_, patches_);
   const auto values = [&] {
     std::vector<double> out;
     for (const Criterion& c : options_.criteria)
@@ -115,7 +126,7 @@ void Candidate::extend() {
   const std::vector<std::vector<ResponsePoint>> without = std::move(response.without);
   response.without.clear();
   for (int k = 0; k < n; ++k) {
-    response.points = without[static_cast<std::size_t>(k)];
+    if (options_.felt()) response.points = without[static_cast<std::size_t>(k)];
     const std::vector<double> others = values();
     for (std::size_t c = 0; c < all.size(); ++c) {
       const bool seen = options_.criteria[c].info().appearance;
@@ -129,14 +140,22 @@ void Candidate::extend() {
 
 std::vector<double> Candidate::member_weights() const {
   std::vector<double> out;
-  if (design_.finger.belief.empty()) return out;
-  for (const BeliefMember& m : belief_of(design_.finger).members) out.push_back(m.weight);
+  if (scene_.finger.belief.empty()) return out;
+  for (const BeliefMember& m : belief_of(scene_.finger).members) out.push_back(m.weight);
   return out;
 }
 
 void Candidate::step() {
-  Fidelity few = model_cost(design_.finger, fidelity_of(design_)).fidelity;
+  const bool believed = !scene_.finger.belief.empty();
+  Fidelity few = model_cost(scene_.finger, fidelity_of(design_)).fidelity;
   few.threads = options_.threads;
+  if (!options_.felt()) {  // no finger moves a look
+    const std::size_t steps =
+        believed ? member_weights().size() : finger_steps(scene_.finger).size();
+    const std::vector<double> unmoved(static_cast<std::size_t>(few.skins), 0.0);
+    steps_.assign(options_.criteria.size(), StepSamples(steps, unmoved));
+    return;
+  }
   const auto moved = [&](const std::function<void(Scene&)>& move) {
     Scene scene = scene_;
     move(scene);
@@ -146,7 +165,7 @@ void Candidate::step() {
     return Resampled(respond(scene, few, patches));
   };
   Response runs;
-  if (design_.finger.belief.empty()) {
+  if (!believed) {
     const auto end = [&](std::size_t direction, bool up) {
       return moved([&](Scene& scene) {
         FingerStep step = finger_steps(scene.finger)[direction];
@@ -156,7 +175,7 @@ void Candidate::step() {
     for (std::size_t k = 0; k < finger_steps(scene_.finger).size(); ++k)
       runs.parameters.steps.push_back({end(k, true), end(k, false)});
   } else {
-    const Belief belief = belief_of(design_.finger);
+    const Belief belief = belief_of(scene_.finger);
     runs.belief.own = moved([](Scene&) {});
     for (const BeliefMember& member : belief.members) {
       runs.belief.members.push_back({member.weight, member.hypothesis, moved([&](Scene& scene) {
@@ -190,8 +209,7 @@ void Candidate::solve(const std::function<void(Scene&)>& move, Fidelity fidelity
     fidelity.first_skin = patches.skins();
     fidelity.skins = (skins - k + count - 1) / count;
     const Design& region = regions_[static_cast<std::size_t>(r)];
-    Scene scene = scene_of(region);
-    scene.finger.state = scene_.finger.state;
+    Scene scene = scene_in(region, state_);
     move(scene);
     RegionLaws& laws = known[static_cast<std::size_t>(r)];
     PatchSet more = solve_patches(scene, region.texture, fidelity, laws.field, laws.laws);

@@ -15,7 +15,7 @@ class Candidate {
   // Keeps references to both.
   Candidate(const Regions& regions, FingerState state, const RankOptions& options);
 
-  int skins() const { return patches_.skins(); }
+  int skins() const { return skins_; }
   // Solves a batch more: the next skins of the common sequence, shared out over the regions. Throws
   // InputError for a criterion that is not defined here.
   void extend();
@@ -43,12 +43,14 @@ class Candidate {
   const Regions& regions_;
   const Design& design_;  // the first region: what all share
   const RankOptions& options_;
+  FingerState state_;  // of a finger; a pin has none
   Scene scene_;
   Fidelity fidelity_;
   // Where a criterion asks for it: mean over the regions, one per skin of a surface that is random,
   // each of another arrangement; else one. Eq. ranking.7
   std::vector<Optics> looks_;
-  PatchSet patches_;
+  PatchSet patches_;  // of a candidate that is looked at alone, none
+  int skins_ = 0;
   std::vector<RegionLaws> known_;
   std::vector<std::vector<double>> pseudo_;  // [criterion][skin]
   std::vector<StepSamples> steps_;           // one per criterion

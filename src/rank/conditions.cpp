@@ -32,15 +32,14 @@ void leaves(const Node& node, const std::string& path, KeyValues& out) {
 
 // What all candidates have to share for these criteria, key by key.
 KeyValues conditions_of(const Design& design, const RankOptions& options) {
-  bool felt = false, driven = false, seen = false;
+  bool driven = false, seen = false;
   for (const Criterion& c : options.criteria) {
     const MetricInfo& info = c.info();
     seen = seen || info.appearance;
-    felt = felt || !info.appearance;
     driven = driven || info.needs_drive;
   }
   KeyValues out;
-  if (felt) {
+  if (options.felt()) {
     Finger finger = scene_of(design).finger;
     // Names and the story of the fit move nothing; the options rule the state.
     finger.name.clear();
@@ -131,10 +130,12 @@ FingerState common_state(const std::vector<Regions>& candidates) {
   std::vector<FingerState> found;
   for (const Regions& regions : candidates) {
     for (const Design& design : regions) {
+      if (design.counterface.in_place()) continue;  // of a finger that is not there
       if (std::find(found.begin(), found.end(), design.finger.state) == found.end())
         found.push_back(design.finger.state);
     }
   }
+  if (found.empty()) return FingerState::Clean;
   if (found.size() == 1) return found.front();
   std::vector<std::string> names;
   for (const FingerState state : found)

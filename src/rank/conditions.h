@@ -29,7 +29,8 @@ std::vector<ConditionDifference> condition_differences(const std::vector<Regions
 void require_same_conditions(const std::vector<ConditionDifference>& differences);
 
 // The state that the fingers of all candidates are in (finger.state): where no other is asked for
-// they are judged in it. Throws InputError where they are in different ones.
+// they are judged in it. Of pins alone, which have none, clean. Throws InputError where they are in
+// different ones.
 FingerState common_state(const std::vector<Regions>& candidates);
 
 }  // namespace papilla::rank

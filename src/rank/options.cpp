@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "base/error.h"
 #include "base/text.h"
 
@@ -36,11 +39,22 @@ const MetricInfo& Criterion::info() const { return info_of(expression.metric); }
 
 std::string Criterion::text() const { return metric_text(expression) + (high ? ":high" : ":low"); }
 
+bool RankOptions::felt() const {
+  return std::any_of(criteria.begin(), criteria.end(),
+                     [](const Criterion& c) { return !c.info().appearance; });
+}
+
 std::vector<Criterion> parse_criteria(const std::string& text) {
   std::vector<Criterion> out;
   for (const std::string& word : split(text, ',')) {
     if (word.empty()) throw InputError("\"" + text + "\": expected METRIC:low or METRIC:high");
-    out.push_back(parse_criterion(word));
+    Criterion c = parse_criterion(word);
+    const std::string metric = metric_text(c.expression);
+    for (const Criterion& other : out) {
+      if (metric_text(other.expression) == metric)
+        throw InputError(fmt::format("\"{}\": {} is named twice", text, metric));
+    }
+    out.push_back(std::move(c));
   }
   return out;
 }

@@ -42,6 +42,8 @@ struct RankOptions {
   std::vector<std::string> names;  // of the candidates in messages; empty: their titles
   std::function<void(const std::string&)> note;  // progress for people; may be empty
 
+  // Whether a finger has to press for some criterion; a look needs none.
+  bool felt() const;
   bool scored() const { return criteria.size() == 1 || !weights.empty(); }
 };
 

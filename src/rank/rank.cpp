@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -292,13 +293,39 @@ class StateRanker {
   std::vector<Board> boards_;
 };
 
+// The first that stands in place of a finger; null: fingers touch all of them.
+const Pin* pin_among(const std::vector<Regions>& candidates) {
+  for (const Regions& regions : candidates) {
+    for (const Design& d : regions) {
+      if (const Pin* pin = d.counterface.in_place()) return pin;
+    }
+  }
+  return nullptr;
+}
+
+// What touches the candidates, each once: "finger clean", the name of a pin.
+std::string touching_of(const std::vector<Regions>& candidates, FingerState state) {
+  std::vector<std::string> names;
+  for (const Regions& regions : candidates) {
+    for (const Design& d : regions) {
+      const Pin* pin = d.counterface.in_place();
+      std::string name =
+          pin ? pin->name : "finger " + finger_state_names()[static_cast<std::size_t>(state)];
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(std::move(name));
+    }
+  }
+  return join_names(names);
+}
+
 // What the steps of the finger's parameters are run with, the same for all candidates.
 void plan_steps(const std::vector<Regions>& candidates, Ranking& out) {
   if (const std::string why = parameters_unknown(candidates); !why.empty()) throw InputError(why);
   const Design& first = candidates.front().front();
-  const ModelCost cost = model_cost(first.finger, fidelity_of(first));
-  if (first.finger.belief.empty())
-    out.directions = static_cast<int>(finger_steps(first.finger).size());
+  const Finger finger = scene_of(first).finger;
+  const ModelCost cost = model_cost(finger, fidelity_of(first));
+  if (finger.belief.empty())
+    out.directions = static_cast<int>(finger_steps(finger).size());
   else
     out.members = cost.runs - 1;
   out.step_skins = cost.fidelity.skins;
@@ -337,26 +364,40 @@ std::vector<Regions> at_places(const std::vector<Regions>& candidates) {
 std::vector<std::string> notes_of_maps(const std::vector<Regions>& candidates) {
   bool one_place = false, rigid = false;
   std::size_t places = 0;
+  // Keys of the width of places; of parts of stacks, that choose their one place.
+  std::set<std::string> widths, part_places;
   for (const Regions& regions : candidates) {
     const Design& d = regions.front();
     if (facts(d.texture).scans.empty()) continue;
     rigid = rigid || d.surface.modulus == 0;
     places = std::max(places, regions.size());
-    if (regions.size() > 1) continue;
-    for (const DesignScan& scan : scans_of(d))
-      one_place = one_place || (!scan.changes.as_is && !scan.changes.repeats && scan.taken > 0 &&
-                                2 * scan.taken < scan.changes.width);
+    for (const DesignScan& scan : scans_of(d)) {
+      if (scan.taken == 0) continue;  // of the skin
+      if (regions.size() > 1) {
+        widths.insert(scan.periods ? "whole periods" : scan.section + ".patch");
+      } else if (!scan.changes.as_is && !scan.changes.repeats &&
+                 2 * scan.taken < scan.changes.width) {
+        if (scan.section == "texture")
+          one_place = true;
+        else
+          part_places.insert(scan.section + ".at_x");
+      }
+    }
   }
   std::vector<std::string> out;
   if (places > 1)
-    out.push_back(
-        fmt::format("scans: skins press {} places of a map in turn (texture.patch wide), so that ± "
-                    "holds how they differ",
-                    places));
+    out.push_back(fmt::format(
+        "scans: skins press {} places of a map in turn ({} wide), so that ± holds how they differ",
+        places, join_names({widths.begin(), widths.end()}, " or ")));
   if (one_place)
     out.emplace_back(
         "scans: one place of a map is pressed, and no ± holds what other places would say: leave "
         "out texture.at_x and at_y, or take a smaller texture.patch");
+  if (!part_places.empty())
+    out.push_back(fmt::format(
+        "scans: of a map that is a part of a stack one place is pressed, and no ± holds what other "
+        "places would say: join designs with another {} and at_y by +, as regions of one",
+        join_names({part_places.begin(), part_places.end()})));
   if (rigid)
     out.emplace_back(
         "scans: surfaces without surface.modulus are rigid; what gives way under a finger, a soft "
@@ -418,17 +459,21 @@ std::vector<std::string> notes_of(const std::vector<Regions>& candidates,
 
 std::string parameters_unknown(const std::vector<Regions>& candidates) {
   const Design& first = candidates.front().front();
-  if (const std::string why = unknown_model(first.finger); !why.empty()) return why;
+  if (const Pin* pin = pin_among(candidates))
+    return fmt::format("nothing is fitted of \"{}\"", pin->name);
+  const Scene with = scene_of(first);
+  if (const std::string why = unknown_model(with.finger); !why.empty()) return why;
   for (const Regions& regions : candidates) {
     for (const Design& d : regions) {
-      if (d.finger.belief != first.finger.belief)
+      const Scene scene = scene_of(d);
+      if (scene.finger.belief != with.finger.belief)
         return fmt::format("\"{}\" and \"{}\" are of fingers with other beliefs", first.title,
                            d.title);
-      if (!d.finger.belief.empty() && d.model != d.finger.calibrated_for)
+      if (!scene.finger.belief.empty() && scene.model != scene.finger.calibrated_for)
         return fmt::format("the belief of \"{}\" is of other model options than its [model]",
                            d.title);
-      if (!d.finger.belief.empty()) continue;
-      if (d.finger.uncertainty != first.finger.uncertainty)
+      if (!scene.finger.belief.empty()) continue;
+      if (scene.finger.uncertainty != with.finger.uncertainty)
         return fmt::format(
             "\"{}\" and \"{}\" are of fingers with other [[uncertainty]]: what their parameters "
             "do to a difference is not known",
@@ -448,20 +493,29 @@ Ranking ranking_of(const std::vector<Regions>& named, const RankOptions& options
   for (const double w : options.weights) {
     if (!(w > 0)) throw InputError("a weight is more than 0; leave a criterion of weight 0 out");
   }
+  for (std::size_t i = 0; i < options.states.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (options.states[i] != options.states[k]) continue;
+      throw InputError(
+          fmt::format("the finger's state \"{}\" is named twice",
+                      finger_state_names()[static_cast<std::size_t>(options.states[i])]));
+    }
+  }
   for (const Regions& regions : candidates) out.titles.push_back(regions.front().title);
   out.scans = scans_behind(named);
   out.conditions = condition_differences(candidates, options);
   out.notes = notes_of(candidates, options);
   for (std::string& note : notes_of_maps(candidates)) out.notes.push_back(std::move(note));
+  const Pin* pin = pin_among(candidates);
   if (const std::string unknown = parameters_unknown(candidates);
-      !options.parameters && !unknown.empty())
+      options.felt() && !options.parameters && !unknown.empty())
     out.notes.push_back(
         "no interval and no probability holds what is not known of finger and model, which is "
         "often more than all else: " +
-        unknown + "; [finger] base = \"fingers/reference.toml\" has it of the shipped finger");
+        unknown +
+        (pin ? "" : "; [finger] base = \"fingers/reference.toml\" has it of the shipped finger"));
   if (!options.any_conditions) require_same_conditions(out.conditions);
   if (options.parameters) plan_steps(candidates, out);
-  const Pin* pin = candidates.front().front().counterface.in_place();
   if (pin && options.states.size() > 1)
     throw InputError(
         fmt::format("\"{}\" stands in place of the finger and has no states: give one "
@@ -469,8 +523,7 @@ Ranking ranking_of(const std::vector<Regions>& named, const RankOptions& options
                     pin->name));
   for (FingerState state : options.states) {
     out.states.push_back(StateRanker(candidates, state, options).run());
-    out.states.back().touching =
-        pin ? pin->name : "finger " + finger_state_names()[static_cast<std::size_t>(state)];
+    out.states.back().touching = touching_of(candidates, state);
     out.skins += out.states.back().skins;
   }
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

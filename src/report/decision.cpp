@@ -9,7 +9,9 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "config/describe.h"
+#include "metrics/metric.h"
 #include "metrics/shown.h"
+#include "numerics/statistics.h"
 #include "report/grounds.h"
 #include "report/json.h"
 #include "report/recommendation.h"
@@ -93,16 +95,21 @@ std::string worth_text(const ResultFiles& f, const std::string& words, double di
                       : std::string());
 }
 
-// What per cent of a difference are of: ", which has 0.14 on average".
-std::string share_text(const ResultFiles& f) {
+// "0.009 less than the best design of each member, which has 0.16 (5.7 %: the expected regret)"
+std::string behind_text(const ResultFiles& f, std::size_t design) {
   const Decision& d = decision_of(f);
-  if (!has_shares(d)) return {};
   // Worths rise with what is wished for: of less they are the negative values.
   const bool less =
       d.rule.kind == PickRule::Kind::Objective && !f.problem.objectives()[d.rule.index].maximise;
-  return fmt::format(", which has {} on average over the members (per cent are of that)",
+  const double regret = d.designs[design].regret;
+  const std::string by =
+      in_worth(f, "expected regret of " + name_of(f, design), regret, "") +
+      fmt::format(" {} than the best design of each member", less ? "more" : "less");
+  if (!has_shares(d)) return by + " (the expected regret)";
+  return fmt::format("{}, which has {} ({:.2g} %: the expected regret)", by,
                      in_worth(f, "what the best of each member has on average",
-                              less ? -d.best_worth : d.best_worth, ""));
+                              less ? -d.best_worth : d.best_worth, ""),
+                     100 * regret / std::abs(d.best_worth));
 }
 
 std::string regret_text(const ResultFiles& f, std::size_t design) {
@@ -188,19 +195,29 @@ std::vector<std::string> overturned(const ResultFiles& f) {
   return out;
 }
 
+// ", by 0.0002 (0.1 %) beside design 06"
+std::string by_loss(const ResultFiles& f, const Reversal& r) {
+  const Decision& d = decision_of(f);
+  if (r.best == d.best || !(r.loss > 0)) return {};
+  return fmt::format(
+      ", by {} beside {}",
+      worth_text(f, "what " + name_of(f, r.best) + " is better by under \"" + r.name + "\"",
+                 r.loss),
+      name_of(f, d.best));
+}
+
 std::string overturned_text(const ResultFiles& f) {
   const std::vector<std::string> found = overturned(f);
   if (found.empty())
     return fmt::format(
-        "nothing that was tried: under no choice of the model, and with no number of the finger "
-        "above or below the middle of what is believed of it, is another design better by {:.0f} % "
-        "or more",
+        "nothing that was tried: under no choice of the model and with no number of the finger in "
+        "the upper or lower half of what is believed of it is another design better by {:.0f} % or "
+        "more",
         100 * kAlike);
   return join_names(found, "; ") +
          fmt::format(
-             "; no other choice of the model, and no number of the finger above or below the "
-             "middle of "
-             "what is believed of it, makes another design better by {:.0f} % or more",
+             "; no other choice of the model and no number of the finger that was tried makes "
+             "another design better by {:.0f} % or more",
              100 * kAlike);
 }
 
@@ -213,8 +230,8 @@ std::string limits_sentence(const ResultFiles& f) {
   const std::string made =
       YieldModel::exists(f.study)
           ? ""
-          : ", if it is made exactly so: scatter of making is not in this (a section [scatter] of "
-            "the study with the tolerances of the fab adds it)";
+          : ", if it is made exactly so (tolerances in a section [scatter] of the study add what "
+            "making scatters)";
   const std::string name = name_of(f, d.best);
   if (d.sure(wanted))
     return fmt::format(" With probability {} {} keeps every limit{}.", has, name, made);
@@ -267,11 +284,9 @@ std::string measure_sentence(const ResultFiles& f) {
   const Decision& d = decision_of(f);
   if (!design_to_measure(f)) return {};
   return fmt::format(
-      "To be surer, measure the friction of {} and of {} ({}){}, over the humidities and at the "
-      "load of this study: the one that is better in {} is to be built. `papilla next RESULTS` "
-      "with the folder of this run plans it (humidities, loads, voltages, repeats, order) in a "
-      "table to "
-      "fill in, and `papilla tell` takes the table back and says what it changes.",
+      "To be surer, measure the friction of {} and of {} ({}){}, at the humidities and the load of "
+      "this study, and build the one that is better in {}. `papilla next RESULTS` with the folder "
+      "of this run plans what to measure, and `papilla tell` says what the measurements change.",
       name_of(f, d.best), name_of(f, rival_of(d)), rival_text(f, f.result.finalists[rival_of(d)]),
       f.problem.driven() ? " with the drive off and on" : "", worth_name(f));
 }
@@ -319,6 +334,46 @@ std::string chosen_how(const ResultFiles& f) {
          of_the_sure_text(f);
 }
 
+// What of belief has an answer for a design: its worths there, their weights.
+struct KnownWorths {
+  std::vector<double> worths, weights;
+  double all = 0;  // of the weights
+};
+
+KnownWorths known_worths(const MemberWorth& worth, std::size_t design) {
+  KnownWorths out;
+  for (std::size_t m = 0; m < worth.weights.size(); ++m) {
+    if (std::isnan(worth.worth[design][m])) continue;
+    out.worths.push_back(worth.worth[design][m]);
+    out.weights.push_back(worth.weights[m]);
+    out.all += worth.weights[m];
+  }
+  return out;
+}
+
+// By members of belief alone, as what skins leave open is a part of ±.
+bool has_worst_over_belief(const ResultFiles& f) {
+  const Decision& d = decision_of(f);
+  return d.made() && d.rule.kind == PickRule::Kind::Worst && f.problem.judged_at_amplitude() &&
+         f.result.best < d.designs.size() && known_worths(d.worth, f.result.best).all > 0;
+}
+
+// How probable it is that people notice the worst modulation.
+std::string felt_sentence(const ResultFiles& f) {
+  if (!has_worst_over_belief(f)) return {};
+  const KnownWorths known = known_worths(decision_of(f).worth, f.result.best);
+  double felt = 0;
+  for (std::size_t m = 0; m < known.worths.size(); ++m)
+    felt += known.worths[m] >= kNoticed ? known.weights[m] : 0;
+  return fmt::format(
+      " People notice a worst modulation of {} and more (Fehlberg 2022): with probability {} it is "
+      "felt at every humidity.",
+      noticed_text(),
+      percent_stated("probability that the worst modulation of what is "
+                     "recommended is noticed",
+                     felt / known.all));
+}
+
 // How much of the doubt more skins would take away, and what only measurements can.
 std::string settled_sentence(const ResultFiles& f) {
   const Decision& d = decision_of(f);
@@ -332,6 +387,25 @@ std::string settled_sentence(const ResultFiles& f) {
 }
 
 }  // namespace
+
+std::string worst_over_belief(const ResultFiles& f) {
+  if (!has_worst_over_belief(f)) return {};
+  constexpr double kShare = 0.95;
+  const KnownWorths known = known_worths(decision_of(f).worth, f.result.best);
+  double mean = 0;
+  for (std::size_t m = 0; m < known.worths.size(); ++m)
+    mean += known.worths[m] * known.weights[m] / known.all;
+  const auto said = [](const char* which, double worst) {
+    return stated(
+        bare_number(fmt::format("{} worst modulation of what is recommended over belief", which),
+                    worst, "", kOfBelief, kOfDecision),
+        fmt::format("{:.3f}", worst));
+  };
+  const auto at = [&](double p) { return weighted_quantile(known.worths, known.weights, p); };
+  return fmt::format("{} on average over belief ({} to {} on {:.0f} % of it)", said("mean", mean),
+                     said("low", at(0.5 - 0.5 * kShare)), said("high", at(0.5 + 0.5 * kShare)),
+                     100 * kShare);
+}
 
 std::optional<std::size_t> design_to_measure(const ResultFiles& f) {
   const Decision& d = decision_of(f);
@@ -366,19 +440,19 @@ std::vector<std::string> decision_grounds(const ResultFiles& f) {
   const std::size_t shown = f.result.best;
   std::string sure = fmt::format(
       "How sure: of the {} designs of the front {} is the best in {} with probability {}, by this "
-      "model, over {} members of belief (values of the finger and choices of the model that the "
-      "measurements leave open) and what the skins of each leave open; errors of the grid and of "
-      "the 3-D field are not in it. On average it stays {} behind "
-      "the best design of each member (the expected regret){}",
+      "model, over the {} members of belief (finger and model as the measurements leave them open) "
+      "and over skins, without errors of the grid and of the 3-D field. On average over the "
+      "members "
+      "it has {}",
       stated(count_number("designs of the front", d.designs.size(), {Stage::Confirm}),
              fmt::format("{}", d.designs.size())),
       name_of(f, shown), worth_name(f), p_best_text(f, shown), members_text(f),
-      regret_text(f, shown), share_text(f));
+      behind_text(f, shown));
   const std::string unanswered = unanswered_sentence(f);
   if (shown != d.best)
     return {sure + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f)) + unanswered};
-  std::vector<std::string> out{sure + "." + unanswered + settled_sentence(f) + others_sentence(f) +
-                               limits_sentence(f)};
+  std::vector<std::string> out{sure + "." + unanswered + felt_sentence(f) + settled_sentence(f) +
+                               others_sentence(f) + limits_sentence(f)};
   if (d.designs.size() > 1) out.push_back("What would overturn it: " + overturned_text(f) + ".");
   if (std::string measure = measure_sentence(f); !measure.empty()) out.push_back(measure);
   return out;
@@ -422,7 +496,7 @@ std::string decision_text(const ResultFiles& f) {
   for (const Reversal& r : d.hypotheses)
     out +=
         fmt::format("\n- Under hypothesis \"{}\" ({} of belief) {}.", r.name, hypothesis_share(r),
-                    r.known > 0 ? name_of(f, r.best) + " has " + chosen_how(f)
+                    r.known > 0 ? name_of(f, r.best) + " has " + chosen_how(f) + by_loss(f, r)
                                 : std::string("no design of the front has an answer"));
   return out + fmt::format("\n\nWhat would overturn it: {}.\n", overturned_text(f));
 }

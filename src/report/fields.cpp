@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "geometry/io/files.h"
@@ -14,18 +16,32 @@ namespace {
 
 constexpr const char* kPictures[] = {"gap", "pressure_off", "pressure_on", "pull", "water"};
 
+// In percent, with as many digits as tell them apart.
+std::vector<std::string> humidity_names(const std::vector<double>& humidities) {
+  for (int digits = 0;; ++digits) {
+    std::vector<std::string> out;
+    for (const double humidity : humidities)
+      out.push_back(fmt::format("{:.{}f}", 100 * humidity, digits));
+    constexpr int kMost = 15;  // digits of a double
+    const bool apart = std::set<std::string>(out.begin(), out.end()).size() == out.size();
+    if (apart || digits == kMost) return out;
+  }
+}
+
 }  // namespace
 
 void write_field_pictures(const std::string& folder, const Design& design,
                           const Fidelity& fidelity) {
-  for (const double humidity : design.environment.relative_humidity) {
+  const std::vector<double>& humidities = design.environment.relative_humidity;
+  const std::vector<std::string> names = humidity_names(humidities);
+  for (std::size_t i = 0; i < humidities.size(); ++i) {
     const PatchPicture picture =
-        picture_patch(scene_of(design), design.texture, fidelity, humidity);
+        picture_patch(scene_of(design), design.texture, fidelity, humidities[i]);
     const Grid& grid = picture.texture.grid;
     const auto write = [&](const char* name, const std::vector<double>& values,
                            const FieldScale& shown) {
       if (values.size() != grid.size()) return;
-      const std::string path = fmt::format("{}/{}_{:.0f}", folder, name, 100 * humidity);
+      const std::string path = fmt::format("{}/{}_{}", folder, name, names[i]);
       const FieldPicture drawn = picture_with_legend(grid, values, shown);
       write_png_rgb(path + ".png", drawn.width, drawn.height, drawn.rgb);
       write_npy(path + ".npy", Heightmap{grid, values});
@@ -47,8 +63,8 @@ void remove_field_pictures(const std::string& folder) {
     const std::string extension = entry.path().extension(), stem = entry.path().stem();
     const std::size_t bar = stem.rfind('_');
     if ((extension != ".png" && extension != ".npy") || bar == std::string::npos) continue;
-    const bool numbered =
-        bar + 1 < stem.size() && stem.find_first_not_of("0123456789", bar + 1) == std::string::npos;
+    const bool numbered = bar + 1 < stem.size() &&
+                          stem.find_first_not_of("0123456789.", bar + 1) == std::string::npos;
     if (numbered && std::find(std::begin(kPictures), std::end(kPictures), stem.substr(0, bar)) !=
                         std::end(kPictures))
       old.push_back(entry.path());

@@ -9,7 +9,8 @@
 
 namespace papilla::report {
 
-// Gap, pressure, water and pull of the first skin at each humidity: gap_75.png, gap_75.npy, ...
+// Gap, pressure, water and pull of the first skin at each humidity: gap_75.png, gap_75.npy, ...,
+// in percent, with as many digits as tell the humidities apart.
 // Cost: one patch per humidity.
 void write_field_pictures(const std::string& folder, const Design& design,
                           const Fidelity& fidelity);

@@ -61,14 +61,6 @@ std::string found_voltages(const ResultFiles& f) {
   return out.empty() ? "" : " (" + join_names(out) + ")";
 }
 
-}  // namespace
-
-bool judged_at_amplitude(const StudyProblem& problem) {
-  return problem.driven() && problem.goals().own_amplitude;
-}
-
-namespace {
-
 // What is built under each finger and scenario of the study.
 std::vector<Design> judged_designs(const ResultFiles& f) {
   const Design built = built_design(f);
@@ -162,12 +154,11 @@ std::string skin_text(const ResultFiles& f) {
                                  checked_value(o, other.values[*place][k], other.name),
                                  checked_value(o, own.values[*place][k], own.name)));
   }
-  if (judged_at_amplitude(f.problem) && *place < other.worst.size())
-    values.push_back(fmt::format(
-        "a worst modulation of {}{} in place of {}", checked_worst(other, *place),
-        other.worst[*place] < kNoticed ? ", which nobody feels," : "", checked_worst(own, *place)));
-  return fmt::format(" Finger \"{}\" alone has on {} {}.", f.problem.tasks().front().name,
-                     other.name, join_names(values));
+  if (f.problem.judged_at_amplitude() && *place < other.worst.size())
+    values.push_back(fmt::format("a worst modulation of {} in place of {}",
+                                 checked_worst(other, *place), checked_worst(own, *place)));
+  return fmt::format(" On {}, with finger \"{}\" alone, it has {}.", other.name,
+                     f.problem.tasks().front().name, join_names(values));
 }
 
 // Choices of the model, and how far each moves the design alone. Without belief no ± holds any.
@@ -206,14 +197,11 @@ std::string model_text(const ResultFiles& f) {
 // A modulation that nobody feels somewhere.
 std::string felt_text(const ResultFiles& f) {
   const double worst = recommended_of(f).confirmed.worst;
-  if (!judged_at_amplitude(f.problem) || worst >= kNoticed) return {};
+  if (!f.problem.judged_at_amplitude() || worst >= kNoticed) return {};
   return fmt::format(
       "At its worst, over fingers and humidity, the modulation is {}: below {}, the least "
       "relative difference of friction that people notice (Fehlberg 2022), it is not felt there.",
-      worst_text("what is recommended", worst),
-      stated(bare_number("least relative difference that people notice", kNoticed, "",
-                         "published (Fehlberg 2022)", {}),
-             fmt::format("{:.2g}", kNoticed)));
+      worst_text("what is recommended", worst), noticed_text());
 }
 
 // How it looks, where the study says what the glass is.
@@ -272,7 +260,7 @@ std::string film_text(const ResultFiles& f) {
            (cut && alike ? process_text(made(films[0])) : "") + ".";
   }
   return fmt::format(
-      "Film: {} are laid, {} are taken away where the texture is deep, {} stay there.",
+      "Film: {} are laid, {} are taken away where the texture is deep, {} remain there.",
       said("film as laid", films[0].thickness + planes->high,
            films[0].material.empty() ? "it" : films[0].material),
       said("film taken away", planes->high - planes->low),
@@ -296,8 +284,9 @@ std::string other_rule_text(const ResultFiles& f) {
   for (const FinalDesign& d : f.result.finalists) {
     if (d.on_front) front.push_back(search::pick_candidate(f.problem, d.confirmed));
   }
-  const bool by_knee =
-      f.pick == "knee" || (decision.made() && decision.rule.kind == PickRule::Kind::Knee);
+  const bool usual_knee = f.pick.empty() && !f.problem.judged_at_amplitude();
+  const bool by_knee = f.pick == "knee" || usual_knee ||
+                       (decision.made() && decision.rule.kind == PickRule::Kind::Knee);
   if (objectives.size() < 2 || front.size() < 2 || !f.problem.driven() || by_knee) return {};
   const std::size_t other = decision.made() ? decision.by_knee : search::pick_design("knee", front);
   if (other == f.result.best || f.result.best >= front.size()) return {};
@@ -315,7 +304,7 @@ std::string other_rule_text(const ResultFiles& f) {
     values.push_back(fmt::format("{} {} in place of {}", objectives[k].name, said(name, there),
                                  said("what is recommended", here)));
   }
-  if (judged_at_amplitude(f.problem))
+  if (f.problem.judged_at_amplitude())
     values.push_back(fmt::format("a worst modulation of {} in place of {}",
                                  worst_text(name, there.worst),
                                  worst_text("what is recommended", here.worst)));
@@ -348,7 +337,7 @@ std::string room_text(const ResultFiles& f) {
     add(row.up, "up");
   }
   if (none.empty()) return {};
-  return "Limits leave the making little room, one dimension at a time: " + join_names(none, "; ") +
+  return "The limits leave these tolerances, one dimension at a time: " + join_names(none, "; ") +
          ".";
 }
 
@@ -365,6 +354,12 @@ std::string drive_text(const ResultFiles& f) {
   return driven ? join_names(drives, " and ") : std::string();
 }
 
+std::string noticed_text() {
+  return stated(bare_number("least relative difference that people notice", kNoticed, "",
+                            "published (Fehlberg 2022)", {}),
+                fmt::format("{:.2g}", kNoticed));
+}
+
 std::string worst_text(const std::string& of, double worst) {
   return stated(bare_number("worst modulation of " + of, worst, "", kLowest,
                             {Stage::Confirm, Stage::Rounding}),
@@ -374,7 +369,7 @@ std::string worst_text(const std::string& of, double worst) {
 std::string unfelt_skin_text(const ResultFiles& f) {
   const Stability& s = f.result.stability;
   const auto place = checked_place(f);
-  if (!judged_at_amplitude(f.problem) || !place || !s.other_skin ||
+  if (!f.problem.judged_at_amplitude() || !place || !s.other_skin ||
       *s.other_skin >= s.variants.size())
     return {};
   const StabilityVariant& other = s.variants[*s.other_skin];
@@ -383,12 +378,12 @@ std::string unfelt_skin_text(const ResultFiles& f) {
       std::max_element(other.worst.begin(), other.worst.end()) - other.worst.begin());
   const std::string others =
       other.worst[best] < kNoticed
-          ? "nor that of any other design here"
+          ? "nor do they that of any other design here"
           : fmt::format("{} has {} there", design_name(f.result.finalists[best].folder),
                         checked_worst(other, best));
   return fmt::format(
-      " But on {} its worst modulation is {}, which nobody feels, {} (finger \"{}\").", other.name,
-      checked_worst(other, *place), others, f.problem.tasks().front().name);
+      " But on {} (finger \"{}\") its worst modulation is {}, which people do not notice, {}.",
+      other.name, f.problem.tasks().front().name, checked_worst(other, *place), others);
 }
 
 std::vector<std::string> grounds(const ResultFiles& f) {

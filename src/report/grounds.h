@@ -15,12 +15,11 @@ std::vector<std::string> grounds(const ResultFiles& files);
 // " But on natural skin ...": that nobody feels it on skin of the other state, where that was
 // tried; "" otherwise.
 std::string unfelt_skin_text(const ResultFiles& files);
-// Whether what the study asks for is of its own amplitude: else it is of voltages that are found,
-// and a modulation at the amplitude says nothing of what is built.
-bool judged_at_amplitude(const StudyProblem& problem);
 // "200 V (peak) at 5 kHz", of what is built; where the voltage is found, what it is; "" of a
 // surface without a drive.
 std::string drive_text(const ResultFiles& files);
+// The least relative difference of friction that people notice, as a stated number.
+std::string noticed_text();
 // A worst modulation as a stated number. of: the design, in words.
 std::string worst_text(const std::string& of, double worst);
 

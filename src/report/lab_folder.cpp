@@ -93,6 +93,10 @@ NextReport next_in_lab(const NextRun& run) {
   };
   const std::vector<std::string>& paths = run.source.paths;
   const bool goes_on = paths.size() == 1 && is_lab(paths.front());
+  if (goes_on && !run.folder.empty())
+    throw InputError(paths.front() +
+                     ": is a lab, which goes on in its own folder: leave --lab out, which names "
+                     "that of a new one");
   out.folder = goes_on ? paths.front() : folder_for(run);
   if (!goes_on && has_begun(out.folder))
     throw InputError(out.folder + ": is a lab already; `papilla next " + out.folder +

@@ -35,6 +35,7 @@ class LabOpener {
     std::stable_partition(paths.begin(), paths.end(), is_run);
     for (const std::string& path : paths) take(path);
     if (designs_.empty()) throw InputError("no design to measure");
+    refuse_pins();
     set_belief();
     set_conditions();
     set_worth();
@@ -220,6 +221,16 @@ class LabOpener {
     }
   }
 
+  void refuse_pins() const {
+    for (std::size_t i = 0; i < designs_.size(); ++i) {
+      if (designs_[i].counterface.in_place())
+        throw InputError(
+            fmt::format("{}: a pin is in the place of the finger, and a lab weighs what a belief "
+                        "leaves open of fingers: name designs that a finger touches",
+                        out_.opening.file.designs[i].name));
+    }
+  }
+
   void set_belief() {
     std::string path = source_.belief.empty() ? belief_ : own_or_shipped(source_.belief);
     if (path.empty()) path = designs_.front().finger.belief;
@@ -250,6 +261,20 @@ class LabOpener {
     return out;
   }
 
+  // What the manifest says of each field is not said again of all.
+  void refuse_conditions() const {
+    for (const auto& [option, text] :
+         {std::pair("--load", &source_.load), std::pair("--humidity", &source_.humidity),
+          std::pair("--voltage", &source_.voltage), std::pair("--frequency", &source_.frequency),
+          std::pair("--state", &source_.states)}) {
+      if (!text->empty())
+        throw InputError(fmt::format(
+            "{}: the manifest of a wafer says under which conditions each field is measured: "
+            "leave the option out, or take rows off the manifest",
+            option));
+    }
+  }
+
   void set_conditions() {
     CandidateConditions& at = file().conditions;
     const auto given = [&](const std::string& text, const char* unit, const char* option,
@@ -257,15 +282,17 @@ class LabOpener {
       if (!text.empty()) values = listed(text, unit, option);
     };
     const Design& first = designs_.front();
+    const bool of_wafer = !file().fields.empty();
+    if (of_wafer) refuse_conditions();
     if (at.load.empty()) at.load = {first.finger.load};
     if (at.humidity.empty()) at.humidity = first.environment.relative_humidity;
     if (at.voltage.empty()) {
       const bool current = first.drive.driven() && first.drive.control == DriveControl::Current;
-      if (current && source_.voltage.empty())
+      if (current && source_.voltage.empty() && !of_wafer)
         throw InputError(
             "a drive by current: say at which voltages friction can be measured, "
             "--voltage \"100 V\"");
-      at.voltage = {first.drive.amplitude};
+      if (!current) at.voltage = {first.drive.amplitude};
     }
     given(source_.load, "N", "--load", at.load);
     given(source_.humidity, "%", "--humidity", at.humidity);
@@ -274,7 +301,7 @@ class LabOpener {
     if (at.states.empty())
       at.states = {finger_state_names()[static_cast<std::size_t>(first.finger.state)]};
     if (!source_.states.empty()) at.states = split(source_.states, ',');
-    if (!file().fields.empty())
+    if (of_wafer)
       note(fmt::format("{} of the wafer can be measured", counted(file().fields.size(), "field")));
   }
 

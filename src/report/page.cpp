@@ -7,11 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "design/study.h"
+#include "geometry/measured_map.h"
 #include "geometry/texture.h"
 #include "report/markup.h"
 #include "report/page_data.h"
@@ -171,6 +173,26 @@ std::string optimize_page(const Folder& root, std::string design) {
   return page_text(root, title, {kOptimizeHtml, kOptimizeScript, kThreeScript}, std::move(data));
 }
 
+// Which part of a map that is larger a picture is of; "" where it shows all there is.
+std::string shown_part(const Texture& texture, const Grid& shown) {
+  const auto* alone = std::get_if<Measured3d>(&texture.kind);
+  for (const ScanSource& source : facts(texture).scans) {
+    const ScanChanges map = changes_of_map(source);
+    const double least = 1 - 1e-9;
+    if (shown.lx >= least * map.width && shown.ly >= least * map.height) continue;
+    std::string where;  // of a stack, whose parts may each have their place, it is not said
+    if (alone && (alone->at_x != 0 || alone->at_y != 0)) {
+      where = fmt::format(" round ({:.4g}, {:.4g}) um from the middle", 1e6 * alone->at_x,
+                          1e6 * alone->at_y);
+    } else if (alone) {
+      where = " in the middle";
+    }
+    return fmt::format("{:.4g} x {:.4g} um{} of its map of {:.4g} x {:.4g} um", 1e6 * shown.lx,
+                       1e6 * shown.ly, where, 1e6 * map.width, 1e6 * map.height);
+  }
+  return {};
+}
+
 std::string rank_page(const Folder& root) {
   Json ranking = parsed(root, "ranking.json"), candidates = Json::array();
   std::vector<std::string> names, by;
@@ -188,8 +210,11 @@ std::string rank_page(const Folder& root) {
     const std::string file = ranked_design_file(i, 0);
     const Texture texture = read_design(root.file(file)).texture;
     const Heightmap h = generate(texture, patch_grid(texture, kPicturePixels));
-    candidates.push_back(
-        {{"name", names[i]}, {"toml", root.read(file)}, {"heights", picture_json(h.grid, h.z)}});
+    Json candidate{
+        {"name", names[i]}, {"toml", root.read(file)}, {"heights", picture_json(h.grid, h.z)}};
+    if (std::string shown = shown_part(texture, h.grid); !shown.empty())
+      candidate["shown"] = std::move(shown);
+    candidates.push_back(std::move(candidate));
   }
   const std::string title = fmt::format("{} designs by {}", names.size(), join_names(by, ", "));
   return page_text(root, title, {kRankHtml, kRankScript, ""},

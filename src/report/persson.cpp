@@ -32,21 +32,23 @@ bool held(const MeanFieldPoint& p, const MeanFieldCase& c) {
 }
 
 Json point_json(const MeanFieldPoint& p, const MeanFieldCase& c) {
-  return {{"voltage", p.voltage},
-          {"load", p.load},
-          {"frequency", p.frequency},
-          {"equivalent_thickness", json_number(std::abs(p.thickness))},
-          {"collapsed", p.on.pull.status == PullStatus::Collapsed},
-          {"pressure", p.on.pull.pressure},
-          {"pull", p.on.pull.pull},
-          {"area_off", p.area_off},
-          {"area_on", p.on.pull.area},
-          {"area_ratio", json_number(ratio(p))},
-          {"mean_gap", p.on.pull.mean_gap},
-          {"gap_held", held(p, c)},
-          {"friction", p.on.friction},
-          {"coefficient", json_number(coefficient(p))},
-          {"capacitance", p.capacitance}};
+  Json out{{"voltage", p.voltage},
+           {"load", p.load},
+           {"frequency", p.frequency},
+           {"equivalent_thickness", json_number(std::abs(p.thickness))},
+           {"collapsed", p.on.pull.status == PullStatus::Collapsed},
+           {"pressure", p.on.pull.pressure},
+           {"pull", p.on.pull.pull},
+           {"area_off", p.area_off},
+           {"area_on", p.on.pull.area},
+           {"area_ratio", json_number(ratio(p))},
+           {"mean_gap", p.on.pull.mean_gap},
+           {"gap_held", held(p, c)},
+           {"friction", p.on.friction},
+           {"coefficient", json_number(coefficient(p))},
+           {"capacitance", p.capacitance}};
+  if (c.skin.hardness > 0) out["yielded"] = p.yielded;
+  return out;
 }
 
 std::string table(const std::vector<MeanFieldPoint>& points, const char* name,
@@ -57,11 +59,12 @@ std::string table(const std::vector<MeanFieldPoint>& points, const char* name,
   for (const MeanFieldPoint& p : points) {
     out += fmt::format(
         "{:>8.4g} {:>8.4g} {:>10.5g} {:>11.5g} {:>11.5g} {:>9} {:>9.4g} {:>10.4g} "
-        "{:>7}{}{}\n",
+        "{:>7}{}{}{}\n",
         p.voltage, p.load, p.frequency, p.on.pull.pull, p.on.pull.area, or_none(ratio(p), 5),
         1e6 * p.on.pull.mean_gap, p.on.friction, or_none(coefficient(p), 4),
         held(p, c) ? "  gap held" : "",
-        p.on.pull.status == PullStatus::Collapsed ? "  pulled in" : "");
+        p.on.pull.status == PullStatus::Collapsed ? "  pulled in" : "",
+        p.yielded ? "  yields everywhere" : "");
   }
   return out;
 }
@@ -96,6 +99,12 @@ std::string mean_field_text(const MeanFieldCase& c, const MeanFieldResult& r, do
       1e6 * p.on.pull.mean_gap, held(p, c) ? ", held" : "", p.on.friction,
       or_none(coefficient(p), 4), 1e12 * p.capacitance);
   if (p.on.pull.status == PullStatus::Collapsed) out += "pulled in: no equilibrium below 1 GPa\n";
+  if (p.yielded) {
+    out += fmt::format(
+        "yields everywhere: the pressure is beyond the hardness, {:.5g} kPa, the numbers under "
+        "voltage mean nothing physical\n",
+        1e-3 * c.skin.hardness);
+  }
   if (!r.voltage.empty()) out += table(r.voltage, "voltage", c);
   if (!r.load.empty()) out += table(r.load, "load", c);
   if (!r.frequency.empty()) out += table(r.frequency, "frequency", c);

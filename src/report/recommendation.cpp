@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "base/constants.h"
@@ -24,35 +25,37 @@ namespace {
 const FinalDesign& best_of(const ResultFiles& f) { return f.result.finalists[f.result.best]; }
 Advice advice_of(const ResultFiles& f) { return search::advice_of(f.problem, f.result); }
 
-// Objectives in which a design is better (else worse) by more than the error: "mean(modulation)
-// +0.031 ± 0.012". words: which design less which.
-std::string changes(const ResultFiles& f, const std::string& words, const Score& design,
-                    const Score& other, bool better) {
-  std::vector<std::string> out;
+// Whose numbers are compared, for the receipts.
+struct Pair {
+  std::string design, other;
+};
+
+// Objectives that differ by more than the error of the difference: "raises mean(modulation) by
+// 0.031 ± 0.012 (better)"; what is better comes first. "" where none does.
+std::string changes(const ResultFiles& f, const Pair& words, const Score& design,
+                    const Score& other) {
+  std::vector<std::string> better, worse;
   for (std::size_t k = 0; k < design.values.size(); ++k) {
     const StudyObjective& o = f.problem.objectives()[k];
     const double change = design.values[k] - other.values[k];
     const double error = difference_error(design, other, k);
-    if ((o.maximise == better ? change : -change) <= error) continue;
+    if (std::abs(change) <= error) continue;
     // A quantity without an error, an appearance, changes by rounding alone.
     if (shown_value(o.expression, change) == shown_value(o.expression, 0)) continue;
-    const std::string unit = shown_unit(o.expression).unit;
+    const bool raised = change > 0, gain = raised == o.maximise;
+    const StatedNumber by =
+        raised ? difference_number(f, words.design + " less " + words.other, design, other, k)
+               : difference_number(f, words.other + " less " + words.design, other, design, k);
     const std::string bar = scatters(change, error) ? " ± " + shown_error(o.expression, error) : "";
-    const std::string said = fmt::format("{}{}{}", shown_value(o.expression, change, true), bar,
-                                         unit.empty() ? "" : " " + unit);
-    out.push_back(o.name + " " + stated(difference_number(f, words, design, other, k), said) +
-                  (o.maximise ? "" : " (lower is better)"));
+    const std::string unit = shown_unit(o.expression).unit;
+    (gain ? better : worse)
+        .push_back(fmt::format("{} {} by {} ({})", raised ? "raises" : "lowers", o.name,
+                               stated(by, shown_value(o.expression, std::abs(change)) + bar +
+                                              (unit.empty() ? "" : " " + unit)),
+                               gain ? "better" : "worse"));
   }
-  return join_names(out);
-}
-
-// "gains mean(modulation) +0.031 ± 0.012 and costs ..."; "" where neither is beyond its error.
-std::string gains_and_costs(const ResultFiles& f, const std::string& words, const Score& design,
-                            const Score& other) {
-  const std::string gain = changes(f, words, design, other, true),
-                    cost = changes(f, words, design, other, false);
-  if (gain.empty()) return cost.empty() ? "" : "costs " + cost;
-  return "gains " + gain + (cost.empty() ? "" : " and costs " + cost);
+  better.insert(better.end(), worse.begin(), worse.end());
+  return join_names(better, " and ");
 }
 
 // The value of a variable.
@@ -130,9 +133,8 @@ std::string other_textures(const ResultFiles& f) {
     if (!d.on_front || i == f.result.best || !facts(d.design.texture).relief.present) continue;
     if (search::no_better(f.problem.objectives(), d.confirmed, flat)) continue;
     const std::string name = design_name(d.folder);
-    out.push_back(
-        name + " " +
-        gains_and_costs(f, name + " less what is recommended without texture", d.confirmed, flat));
+    out.push_back(name + " " +
+                  changes(f, {name, "what is recommended without texture"}, d.confirmed, flat));
   }
   return out.empty() ? ""
                      : " What other textures of the front change: " + join_names(out, "; ") + ".";
@@ -152,27 +154,25 @@ std::string worth_building(const ResultFiles& f) {
   const OptimiseResult& r = f.result;
   const FinalDesign& best = best_of(f);
   std::vector<std::string> clauses;
-  if (judged_at_amplitude(f.problem)) {
-    const auto rounded = worth_on_grid(f.problem, r);
+  if (f.problem.judged_at_amplitude()) {
+    const std::string over_belief = worst_over_belief(f);
     clauses.push_back(fmt::format(
         "Its worst modulation, (F_on - F_off)/F_off, over fingers and humidity is {}{}{}.",
         worst_text("what is recommended", best.confirmed.worst),
-        rounded ? " as searched, like all that follows, and " +
-                      worst_text("what is built", rounded->worst) +
-                      " with its dimensions rounded like this"
-                : "",
-        r.flat ? "; of the same surface without texture " +
-                     worst_text("the same surface without texture", r.flat->worst)
+        over_belief.empty() ? "" : " as fitted and " + over_belief,
+        r.flat ? fmt::format("; without texture it is {}{}",
+                             worst_text("the same surface without texture", r.flat->worst),
+                             over_belief.empty() ? "" : " as fitted")
                : ""));
   }
   if (r.flat) {
     if (const auto broken = broken_texts(broken_without_texture(f.problem, r)); !broken.empty())
       clauses.push_back(fmt::format("Without its texture the same surface breaks a limit: {}.",
                                     join_names(broken)));
-    if (const std::string same = gains_and_costs(
-            f, "the best less the same surface without texture", best.confirmed, *r.flat);
+    if (const std::string same =
+            changes(f, {"the best", "the same surface without texture"}, best.confirmed, *r.flat);
         !same.empty())
-      clauses.push_back("Against the same surface without texture it " + same + ".");
+      clauses.push_back("Its texture " + same + ".");
   } else {
     clauses.push_back("The same surface without texture has no number to compare with (" +
                       r.flat_unanswered->reason + ").");
@@ -182,8 +182,7 @@ std::string worth_building(const ResultFiles& f) {
   if (flat &&
       surface_text(f, of_flat, r.finalists[*flat].unit) != surface_text(f, of_flat, best.unit)) {
     const FinalDesign& other = r.finalists[*flat];
-    const std::string both =
-        gains_and_costs(f, "the best less " + of_flat, best.confirmed, other.confirmed);
+    const std::string both = changes(f, {"the best", of_flat}, best.confirmed, other.confirmed);
     const std::string surface = surface_text(f, of_flat, other.unit);
     clauses.push_back(fmt::format(
         "Against the best flat surface of this run, {}{}, it {}.", design_name(other.folder),
@@ -219,8 +218,8 @@ std::string change_finish(const ResultFiles& f) {
         unstable_recommended(f));
   }
   std::vector<std::string> does;
-  if (std::string both = gains_and_costs(f, "the finish of the best less that of the study",
-                                         r.flat ? *r.flat : best_of(f).confirmed, *r.flat_before);
+  if (std::string both = changes(f, {"the finish of the best", "that of the study"},
+                                 r.flat ? *r.flat : best_of(f).confirmed, *r.flat_before);
       !both.empty())
     does.push_back("that " + both);
   if (const std::vector<std::string> broken = broken_texts(broken_before(f.problem, r));

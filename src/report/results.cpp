@@ -90,10 +90,11 @@ class Writer {
 
   // Without a drive there is no modulation; of voltages that are found it says nothing.
   std::string worst_text(bool ok, double worst) const {
-    return ok && judged_at_amplitude(f_.problem) ? fmt::format("{:.6g}", worst) : std::string();
+    return ok && f_.problem.judged_at_amplitude() ? fmt::format("{:.6g}", worst) : std::string();
   }
   Json worst_json(const Score& score) const {
-    return score.ok && f_.problem.driven() ? Json(json_number(score.worst)) : Json(nullptr);
+    return score.ok && f_.problem.judged_at_amplitude() ? Json(json_number(score.worst))
+                                                        : Json(nullptr);
   }
 
   std::string history() const {

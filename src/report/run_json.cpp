@@ -76,7 +76,7 @@ Json compared_row(const ResultFiles& f, const std::string& surface, const std::s
   Json values = Json::array();
   for (std::size_t k = 0; k < score.values.size(); ++k)
     values.push_back(objective_text(f, of, score, k));
-  if (judged_at_amplitude(f.problem)) values.push_back(worst_text(of, score.worst));
+  if (f.problem.judged_at_amplitude()) values.push_back(worst_text(of, score.worst));
   return {{"surface", surface}, {"values", std::move(values)}};
 }
 
@@ -88,7 +88,7 @@ Json compared_json(const ResultFiles& f) {
   const std::string name = recommended.flat ? "without texture" : design_name(recommended.folder);
   Json names = Json::array(), rows = Json::array();
   for (const StudyObjective& o : f.problem.objectives()) names.push_back(o.name);
-  if (judged_at_amplitude(f.problem)) names.emplace_back("worst modulation");
+  if (f.problem.judged_at_amplitude()) names.emplace_back("worst modulation");
   rows.push_back(
       compared_row(f, name + ", recommended", "what is recommended", recommended.confirmed));
   if (r.flat && !recommended.flat)
@@ -137,7 +137,10 @@ Json beside_json(const ResultFiles& f) {
 
 // What the errors of that are, and what is in the names.
 std::string facts_text(const ResultFiles& f) {
-  std::string said = "Computed, not measured. ± is numerical, one standard error";
+  std::string said = worth_on_grid(f.problem, f.result)
+                         ? "Computed, not measured, before rounding to the grid of the fab."
+                         : "Computed, not measured.";
+  said += " ± is numerical, one standard error";
   said += f.result.decision.made() ? "; in brackets what is not known of finger and model, one "
                                      "standard deviation, common to all designs."
                                    : ".";

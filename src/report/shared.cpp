@@ -68,7 +68,7 @@ std::string said(const ResultFiles& f, const SharedRanges& shared) {
       shared.good, shared.feasible, f.problem.objectives().size() > 1 ? "its front" : "its best",
       same.empty() ? "They share no number within a third of what it may be"
                    : "They share " + join_names(same, "; "),
-      free.empty() ? "" : " Over most of their range go " + join_names(free) + ".");
+      free.empty() ? "" : " Nearly any value is good of " + join_names(free) + ".");
 }
 
 }  // namespace

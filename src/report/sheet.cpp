@@ -173,6 +173,10 @@ std::string grid_text(const ResultFiles& f) {
     values.push_back(fmt::format("{} {} where it had {}", o.name, said("what is built", *rounded),
                                  said("what is recommended, as searched", searched.confirmed)));
   }
+  if (f.problem.judged_at_amplitude())
+    values.push_back(fmt::format(
+        "a worst modulation of {} where it had {}", worst_text("what is built", rounded->worst),
+        worst_text("what is recommended, as searched", searched.confirmed.worst)));
   return out + fmt::format("; it was judged again so: {}.", join_names(values));
 }
 

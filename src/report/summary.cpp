@@ -44,13 +44,11 @@ std::string rule_text(const ResultFiles& f) {
            of_the_sure_text(f);
   }
   if (!f.pick.empty() && f.pick != "worst") return "picked by \"" + f.pick + "\"";
-  if (f.problem.driven() && !judged_at_amplitude(f.problem))
-    return f.problem.objectives().size() == 1
-               ? "the best in " + f.problem.objectives().front().name
-               : "the highest worst modulation over fingers and humidity at the amplitude of the "
-                 "study file";
-  return f.problem.driven() ? "the highest worst modulation over fingers and humidity"
-                            : "the knee of the front: the least sum of its scaled objectives";
+  if (f.problem.judged_at_amplitude())
+    return "the highest worst modulation over fingers and humidity";
+  return f.problem.driven() && f.problem.objectives().size() == 1
+             ? "the best in " + f.problem.objectives().front().name
+             : "the knee of the front: the least sum of its scaled objectives";
 }
 
 // Which design best/ has, and why.
@@ -79,7 +77,7 @@ std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
     out += fmt::format(" {} |", heading(o));
     rule += "---|";
   }
-  const bool with_worst = judged_at_amplitude(f.problem);
+  const bool with_worst = f.problem.judged_at_amplitude();
   out += (with_worst ? " worst modulation |\n" : "\n") + rule + (with_worst ? "---|\n" : "\n");
   const auto row = [&](const char* name, const Score& s) {
     out += fmt::format("| {} |", name);
@@ -282,7 +280,7 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
   for (const Variable& v : study.variables) out += " | " + v.path;
   for (const StudyObjective& o : objectives)
     out += fmt::format(" | {} {}", o.maximise ? "max" : "min", heading(o));
-  const bool with_worst = judged_at_amplitude(problem);
+  const bool with_worst = problem.judged_at_amplitude();
   if (with_worst) out += " | worst modulation";
   for (const Constraint& c : study.constraints)
     out += fmt::format(" | {} {}", limit_name(c.on), limit_text(c));

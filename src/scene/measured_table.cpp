@@ -96,6 +96,8 @@ class TableReader {
       const Kind kind = kind_of(column);
       out_.has_friction |= kind == Kind::Off || kind == Kind::On;
     }
+    if (out_.has("humidity") && out_.has("relative_humidity"))
+      problem("relative_humidity", "a second column of the humidity: leave one of the two out");
     // A word that is nearly one of a column is that column, mistyped.
     if (problems_.empty())
       std::erase_if(found.unread, [&](const std::string& c) { return is_mistyped(c); });
@@ -158,7 +160,7 @@ class TableReader {
         r.state = state(cell, place);
         return;
       case Kind::Repeat:
-        r.repeat = static_cast<int>(number(column, cell, place, 1, 1e6).value_or(0));
+        r.repeat = repeat(column, cell, place);
         return;
       case Kind::Load:
         r.load = number(column, cell, place, 1e-6, 100);
@@ -205,6 +207,13 @@ class TableReader {
       return std::nullopt;
     }
     return si;
+  }
+
+  int repeat(const TableColumn& column, std::string_view cell, int place) {
+    const double value = number(column, cell, place, 1, 1e6).value_or(0);
+    if (value != std::floor(value))
+      problem("repeat", fmt::format("expected a whole number, got \"{}\"", cell), place);
+    return static_cast<int>(value);
   }
 
   std::optional<double> humidity(const TableColumn& column, std::string_view cell, int place) {

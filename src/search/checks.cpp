@@ -50,7 +50,7 @@ void pick(Run& run) {
   run.replay.picked();
   if (front.empty()) return;
   const bool by_number =
-      read_pick_rule(run.options.pick, front[0].names, run.problem.driven()).kind ==
+      read_pick_rule(run.options.pick, front[0].names, run.problem.judged_at_amplitude()).kind ==
       PickRule::Kind::Number;
   if (run.result.decision.made() && !by_number) {
     run.result.best = run.result.decision.best;

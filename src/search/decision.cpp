@@ -87,7 +87,7 @@ bool keeps_limits(const StudyProblem& problem, const FinalDesign& design, const 
   return problem.feasible(there, design.design);
 }
 
-// Better in every objective and, under a drive, in the worst modulation, of two that are judged;
+// Better in every objective and, where it counts, in the worst modulation, of two that are judged;
 // what breaks a limit beats none that keeps all.
 bool beats(const StudyProblem& problem, const FinalDesign& a, const Score& of_a,
            const FinalDesign& b, const Score& of_b) {
@@ -97,7 +97,7 @@ bool beats(const StudyProblem& problem, const FinalDesign& a, const Score& of_a,
   for (std::size_t k = 0; k < better.objectives.size(); ++k) {
     if (better.objectives[k] >= worse.objectives[k]) return false;
   }
-  return !problem.driven() || of_a.worst > of_b.worst;
+  return !problem.judged_at_amplitude() || of_a.worst > of_b.worst;
 }
 
 // The same at a member. in: worth by everything that designs are compared in.
@@ -151,11 +151,11 @@ MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDes
     return score.ok ? pick_worth(rule, pick_candidate(problem, score), ranges) : std::nan("");
   };
   const auto skinned = [&](const Score& score, const std::vector<Score>& by_skin) {
-    SkinnedWorth of{worth_of(score)};
+    WorthBySkin of{worth_of(score)};
     for (const Score& moved : by_skin) of.by_skin.push_back(worth_of(moved) - of.worth);
     return of;
   };
-  std::vector<SkinnedWorth> confirmed, few;
+  std::vector<WorthBySkin> confirmed, few;
   for (const FinalDesign& f : designs) {
     confirmed.push_back(skinned(f.confirmed, f.confirmed_by_skin));
     few.push_back(skinned(f.few.back().score, f.few.back().by_skin));
@@ -165,7 +165,7 @@ MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDes
         problem.study().constraints.size(), std::vector<bool>(f.members.size(), false));
     for (std::size_t m = 0; m < f.members.size(); ++m) {
       const Score& there = f.members[m];
-      const SkinnedWorth alone = skinned(f.few[m].score, f.few[m].by_skin);
+      const WorthBySkin alone = skinned(f.few[m].score, f.few[m].by_skin);
       values.push_back(there.ok ? alone.worth : std::nan(""));
       by_skin.push_back(alone.by_skin);
       // Where there is no answer, a limit that needs one is not kept.
@@ -186,7 +186,7 @@ PickCandidate pick_candidate(const StudyProblem& problem, const Score& score) {
   PickCandidate out;
   for (const StudyObjective& o : problem.objectives()) out.names.push_back(o.name);
   out.objectives = problem.minimised(score);
-  if (problem.driven()) out.worst = score.worst;
+  if (problem.judged_at_amplitude()) out.worst = score.worst;
   out.errors = score.errors;
   return out;
 }
@@ -241,7 +241,7 @@ void add_members(const StudyProblem& problem, const std::vector<TaskAnswer>& ans
       for (std::size_t t = 0; t < tasks; ++t) all.push_back(there(t, by));
       return problem.score_without_yield(all);
     };
-    SkinnedScore out{score([](const TaskAnswer& a) { return a; }), {}};
+    ScoreBySkin out{score([](const TaskAnswer& a) { return a; }), {}};
     std::size_t skins = 0;
     for (std::size_t t = 0; t < nominal; ++t) {
       there(t, [&](const TaskAnswer& a) {
@@ -285,7 +285,7 @@ std::vector<bool> on_front_of_belief(const StudyProblem& problem,
   std::vector<PickRule> rules;
   for (std::size_t k = 0; k < problem.objectives().size(); ++k)
     rules.push_back({PickRule::Kind::Objective, k});
-  if (problem.driven()) rules.push_back({PickRule::Kind::Worst});
+  if (problem.judged_at_amplitude()) rules.push_back({PickRule::Kind::Worst});
   std::vector<MemberWorth> worth;
   for (const PickRule& rule : rules) worth.push_back(member_worth(problem, asked, rule, {}));
   const auto beaten_by = [&](std::size_t b, std::size_t a) {
@@ -306,7 +306,7 @@ std::vector<bool> on_front_of_belief(const StudyProblem& problem,
 PickRule decision_rule(const StudyProblem& problem, const std::string& rule) {
   std::vector<std::string> names;
   for (const StudyObjective& o : problem.objectives()) names.push_back(o.name);
-  return decided_rule(rule, names, problem.driven());
+  return decided_rule(rule, names, problem.judged_at_amplitude());
 }
 
 Decision decide(const StudyProblem& problem, const std::vector<FinalDesign>& finalists,

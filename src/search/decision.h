@@ -47,8 +47,9 @@ struct Decision {
 void add_members(const StudyProblem& problem, const std::vector<TaskAnswer>& answers,
                  FinalDesign& design);
 
-// Whether no other of the finalists is better in every objective and, under a drive, in the worst
-// modulation by the confirmed numbers and by what it is worth at every member of belief.
+// Whether no other of the finalists is better in every objective and, where designs are judged at
+// the study's own amplitude, in the worst modulation by the confirmed numbers and by what it is
+// worth at every member of belief.
 std::vector<bool> on_front_of_belief(const StudyProblem& problem,
                                      const std::vector<FinalDesign>& finalists);
 

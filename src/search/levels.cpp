@@ -259,7 +259,11 @@ StudyCost study_cost(const Study& study) {
     out.belief_seconds = price(out.finalists * problem.nominal_tasks(), Stage::Belief);
     out.seconds += out.belief_seconds;
   }
-  out.seconds += yield_price(study, static_cast<std::size_t>(search.evaluations) + out.narrowed,
+  const StudyConstraints& constraints = problem.constraints();
+  const std::size_t looks =
+      constraints.in_look().empty() ? 0 : constraints.looked_at(study.design).size();
+  const auto searched = static_cast<std::size_t>(search.evaluations + search.drafts);
+  out.seconds += yield_price(study, looks, searched + out.narrowed + 1 + 2 * variables,
                              out.finalists + 2 + kJudgedOnGrid);
   out.pixels = stage_fidelity(problem, Stage::Search).grid;
   out.feature = problem.smallest_feature();

@@ -143,10 +143,19 @@ StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks) 
     goals.pull_in = goals.pull_in || std::holds_alternative<PullInMargin>(metric);
     list.push_back(std::move(objective));
   };
-  for (const MetricExpression& e : study.objective.maximise) add(goals.objectives, wanted(e, true));
+  const auto wish = [&](const char* key, StudyObjective objective) {
+    for (const StudyObjective& o : goals.objectives) {
+      if (o.name == objective.name)
+        throw InputError({Problem{study.file, 0, 0, key,
+                                  o.name + " is an objective already: each is named once"}});
+    }
+    add(goals.objectives, std::move(objective));
+  };
+  for (const MetricExpression& e : study.objective.maximise)
+    wish("objective.maximise", wanted(e, true));
   for (const MetricExpression& e : study.objective.minimise)
-    add(goals.objectives, wanted(e, false));
-  for (const Target& target : study.objective.targets) add(goals.objectives, aimed_at(target));
+    wish("objective.minimise", wanted(e, false));
+  for (const Target& target : study.objective.targets) wish("objective.target", aimed_at(target));
   for (const Constraint& c : study.constraints) {
     if (const auto* metric = std::get_if<MetricLimit>(&c.on))
       add(goals.limited, wanted(metric->expression, c.at_least));

@@ -14,11 +14,13 @@
 namespace papilla::search {
 
 PickRule read_pick_rule(const std::string& rule, const std::vector<std::string>& objectives,
-                        bool driven) {
+                        bool has_worst) {
   using Kind = PickRule::Kind;
-  if (rule == "worst" && !driven)
-    throw InputError("--pick worst: without a drive there is no modulation; use \"knee\"");
-  if (rule == "knee" || (rule.empty() && !driven)) return {Kind::Knee, 0};
+  if (rule == "worst" && !has_worst)
+    throw InputError(
+        "--pick worst: without a drive, or with amplitudes that voltage_for finds, there is no "
+        "modulation to go by; use \"knee\"");
+  if (rule == "knee" || (rule.empty() && !has_worst)) return {Kind::Knee, 0};
   if (rule.empty() || rule == "worst") return {Kind::Worst, 0};
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(rule.data(), rule.data() + rule.size(), number);
@@ -35,11 +37,11 @@ PickRule read_pick_rule(const std::string& rule, const std::vector<std::string>&
 }
 
 PickRule decided_rule(const std::string& rule, const std::vector<std::string>& objectives,
-                      bool driven) {
-  const PickRule asked = read_pick_rule(rule, objectives, driven);
+                      bool has_worst) {
+  const PickRule asked = read_pick_rule(rule, objectives, has_worst);
   const bool own = rule.empty() || asked.kind == PickRule::Kind::Number;
   if (own && objectives.size() == 1) return {PickRule::Kind::Objective, 0};
-  return own ? read_pick_rule("", objectives, driven) : asked;
+  return own ? read_pick_rule("", objectives, has_worst) : asked;
 }
 
 // Eq. search.14
@@ -100,9 +102,9 @@ std::string decided_design(const nlohmann::json& run, const std::string& rule,
                            const PickCandidate& like) {
   const std::string best = run.value("/decision/best"_json_pointer, std::string());
   if (best.empty()) return {};
-  const bool driven = like.worst.has_value();
-  const bool same = read_pick_rule(rule, like.names, driven) ==
-                    decided_rule(run.value("pick", std::string()), like.names, driven);
+  const bool has_worst = like.worst.has_value();
+  const bool same = read_pick_rule(rule, like.names, has_worst) ==
+                    decided_rule(run.value("pick", std::string()), like.names, has_worst);
   return same ? best : "";
 }
 

@@ -13,8 +13,10 @@ namespace papilla::search {
 struct PickCandidate {
   std::vector<std::string> names;  // of the objectives: "mean(modulation)"
   std::vector<double> objectives;  // minimised
-  std::optional<double> worst{};   // lowest modulation over fingers and humidity; none: undriven
-  std::vector<double> errors{};    // one standard error of each objective; empty: not known
+  // Lowest modulation over fingers and humidity; none: undriven, or of a study that asks for no
+  // amplitude of its own (StudyProblem::judged_at_amplitude).
+  std::optional<double> worst{};
+  std::vector<double> errors{};  // one standard error of each objective; empty: not known
 };
 
 // What makes a design of a front the best.
@@ -30,14 +32,15 @@ struct PickRule {
 
   bool operator==(const PickRule&) const = default;
 };
-// "worst" (or empty, where there is a drive; "knee" where not), "knee", the beginning of an
-// objective's name as "mean(modulation)", or "3" for front/03. Throws InputError for anything else.
+// "worst" (or empty, where designs have a worst modulation; "knee" where not), "knee", the
+// beginning of an objective's name as "mean(modulation)", or "3" for front/03. Throws InputError
+// for anything else.
 PickRule read_pick_rule(const std::string& rule, const std::vector<std::string>& objectives,
-                        bool driven);
+                        bool has_worst);
 // By what a run with that rule decides over belief: a number of a design decides nothing, and one
 // objective alone decides by itself.
 PickRule decided_rule(const std::string& rule, const std::vector<std::string>& objectives,
-                      bool driven);
+                      bool has_worst);
 
 // Of an objective over the designs of a front: the least value, and what its values are divided by.
 struct ObjectiveRange {

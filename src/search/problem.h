@@ -34,6 +34,9 @@ class StudyProblem {
   const StudyConstraints& constraints() const { return constraints_; }
   // Somewhere a drive is applied or searched: designs have a modulation there.
   bool driven() const;
+  // And what is asked of them is asked at the study's own amplitude, where their worst modulation
+  // is: voltage_for alone has amplitudes of its own.
+  bool judged_at_amplitude() const { return driven() && goals_.own_amplitude; }
   // Of the designs that keep the limits on shapes: the smallest feature [m] that a search meets,
   // from a thousand of them; infinite where they have none.
   double smallest_feature() const { return smallest_feature_; }

@@ -209,9 +209,8 @@ std::vector<double> MemberWorth::moves_of_skins(std::size_t design) const {
   return out;
 }
 
-void combine_levels(const std::vector<SkinnedWorth>& confirmed,
-                    const std::vector<SkinnedWorth>& few, bool in_proportion,
-                    MemberWorth& designs) {
+void combine_levels(const std::vector<WorthBySkin>& confirmed, const std::vector<WorthBySkin>& few,
+                    bool in_proportion, MemberWorth& designs) {
   for (std::size_t m = 0; m < designs.weights.size(); ++m) {
     std::vector<std::size_t> known;
     std::vector<double> alike;
@@ -265,7 +264,7 @@ void combine_levels(const std::vector<SkinnedWorth>& confirmed,
   }
 }
 
-void shrink_moves(const std::vector<SkinnedWorth>& own, bool in_proportion, MemberWorth& designs) {
+void shrink_moves(const std::vector<WorthBySkin>& own, bool in_proportion, MemberWorth& designs) {
   for (std::size_t m = 0; m < designs.weights.size(); ++m) {
     std::vector<std::size_t> known;
     std::vector<double> alike;  // what all designs move by, up to a factor

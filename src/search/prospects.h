@@ -28,8 +28,9 @@ struct MemberWorth {
   // [design][member], higher is better; NaN: the design has none there.
   std::vector<std::vector<double>> worth;
   std::vector<std::vector<std::vector<bool>>> kept;  // [design][limit][member]
-  // [design][member][skin] What a standard error by each of the skins moves the worth by: designs
-  // share skins, so that much of it is common to them. Empty: worth is known as well as it is said.
+  // [design][member][skin] Each skin's share of the sampling error of the worth; the squares add up
+  // to its variance. Designs share their skins, so much of it is common to them. Empty: the worth
+  // has no sampling error.
   std::vector<std::vector<std::vector<double>>> by_skin{};
 
   // Some design is worth something there.
@@ -41,22 +42,26 @@ struct MemberWorth {
 };
 
 // A worth and what each of the skins behind it moves it by.
-struct SkinnedWorth {
+struct WorthBySkin {
   double worth = 0;
   std::vector<double> by_skin{};
 };
-// Designs at the members on few skins, at the level of `few`, become what they say beside
-// `confirmed`, the same designs at the finer level as the finger is: the difference of the levels
-// that all designs share is taken off in full, what it tells designs apart by as far as the skins
-// move it and the member together. Eq. search.25
-void combine_levels(const std::vector<SkinnedWorth>& confirmed,
-                    const std::vector<SkinnedWorth>& few, bool in_proportion, MemberWorth& designs);
-// A member moves all designs by one difference, or in proportion to `own`, what they are worth as
-// the finger is; what it tells them apart by beyond that is shrunk by what it scatters from skin to
-// skin. How far is not known, which is a skin more. Eq. search.23
-void shrink_moves(const std::vector<SkinnedWorth>& own, bool in_proportion, MemberWorth& designs);
+// Combines two levels of accuracy by a control variate. `designs` comes with the worths at the
+// members on few skins. few: the worths on the same few skins for the finger as it is. confirmed:
+// those at the finer level. The difference of the two levels that all designs share is corrected
+// in full; what it changes between designs is corrected only as far as it varies from skin to skin
+// together with the member's worth. in_proportion: levels and members scale the worth, else they
+// shift it. Eq. search.25
+void combine_levels(const std::vector<WorthBySkin>& confirmed, const std::vector<WorthBySkin>& few,
+                    bool in_proportion, MemberWorth& designs);
+// Shrinks the differences between designs that a member states, the more the more they scatter
+// from skin to skin. own: the worths for the finger as it is. What a member does to all designs
+// alike stays: one factor on `own` if in_proportion, else one shift. The uncertainty of the
+// shrinkage is added to by_skin as one more skin. Eq. search.23
+void shrink_moves(const std::vector<WorthBySkin>& own, bool in_proportion, MemberWorth& designs);
 
-// Over the members at which some design is worth something, but the limits: these over all.
+// One design over the belief. p_best, regret and merit are taken over the members at which any
+// design has a worth, p_limit and p_limits over all members.
 struct Prospect {
   double p_best = 0;              // Eq. search.15
   double regret = 0;              // expected, in the unit of the worth. Eq. search.16
@@ -66,15 +71,16 @@ struct Prospect {
 };
 std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& risk);
 
-// Of the design that would be chosen if skins left nothing open, on average over what they may
-// turn out to say: what more of them can bring, and what they cannot. Eq. search.24
+// p_best and regret that would be left with infinitely many skins. Each draw of the sampling error
+// is taken as the truth, the design that is chosen then is judged, and its numbers are averaged
+// over the draws. What `Prospect` has beyond this, more skins can remove. Eq. search.24
 struct SettledSkins {
   double p_best = 0, regret = 0;
 };
 SettledSkins settled_skins(const MemberWorth& designs, const BeliefRisk& risk, double p_limits);
 
-// What the best at each member, and draw of its skins, is worth on average over those that
-// prospects are of.
+// The worth of the best design at each member and draw of the skins, averaged over the members at
+// which any design has a worth.
 double best_worth(const MemberWorth& designs);
 
 // The share of belief at which some design is worth something.
@@ -100,8 +106,8 @@ struct Reversal {
   std::string name;
   double weight = 0;     // of these members, of all 1
   std::size_t best = 0;  // the design that is chosen then
-  double loss = 0;       // expected there of what is chosen over all, less that of `best`
-  double known = 0;      // of `weight`, that of the members that `loss` is the mean over
+  double loss = 0;       // regret there of the design chosen over all members, minus that of `best`
+  double known = 0;      // the part of `weight` at which any design has a worth: `loss` is over it
 };
 // Each group by itself.
 std::vector<Reversal> by_group(const MemberWorth& designs, const BeliefRisk& risk, double p_limits,
@@ -113,8 +119,9 @@ struct HalvesReversal {
   double edge = 0;  // between the halves, SI
   Reversal low, high;
 };
-// Of the numbers of which a half of the members changes the choice, the one that loses most by it;
-// nothing where none does. Eq. search.18
+// Splits the members at the weighted median of each number. Among the numbers of which one half of
+// the members by itself would choose another design, returns the one with the largest weighted loss
+// of both halves; nothing if there is none. Eq. search.18
 std::optional<HalvesReversal> by_half(const MemberWorth& designs, const BeliefRisk& risk,
                                       double p_limits, const std::vector<MemberNumber>& numbers);
 

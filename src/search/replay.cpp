@@ -224,17 +224,40 @@ JudgedDesigns Replay::searched_before() {
 }
 
 std::vector<TaskAnswer> Replay::answers(const std::vector<TaskRequest>& requests) {
-  if (picked_ && replaying() && requests_[next_] != requests.front()) beside_journal_ = true;
+  for (std::size_t i = 0; picked_ && i < requests.size() && next_ + i < requests_.size(); ++i)
+    beside_journal_ = beside_journal_ || requests_[next_ + i] != requests[i];
+  if (beside_journal_) return answers_beside(requests);
   std::vector<TaskAnswer> out;
-  while (!beside_journal_ && out.size() < requests.size() && replaying())
+  while (out.size() < requests.size() && replaying())
     out.push_back(sound(decode_answer(replayed(requests[out.size()]))));
   const std::vector<TaskRequest> remaining(
       requests.begin() + static_cast<std::ptrdiff_t>(out.size()), requests.end());
   for (TaskAnswer& fresh : ask(remaining)) {
-    if (!beside_journal_) record(requests[out.size()], encode(fresh));
+    record(requests[out.size()], encode(fresh));
     out.push_back(std::move(fresh));
   }
   if (out.size() < requests.size()) throw WorkStopped();
+  return out;
+}
+
+std::vector<TaskAnswer> Replay::answers_beside(const std::vector<TaskRequest>& requests) {
+  std::vector<std::optional<TaskAnswer>> known;
+  std::vector<TaskRequest> missing;
+  for (const TaskRequest& request : requests) {
+    const auto place = static_cast<std::size_t>(
+        std::find(requests_.begin(), requests_.end(), request) - requests_.begin());
+    known.emplace_back();
+    if (place < journal_.records().size())
+      known.back() = sound(decode_answer(journal_.records()[place].payload));
+    else
+      missing.push_back(request);
+  }
+  std::vector<TaskAnswer> fresh = ask(missing);
+  if (fresh.size() < missing.size()) throw WorkStopped();
+  auto next = fresh.begin();
+  std::vector<TaskAnswer> out;
+  for (std::optional<TaskAnswer>& answer : known)
+    out.push_back(answer ? *std::move(answer) : std::move(*next++));
   return out;
 }
 

@@ -58,8 +58,8 @@ class Replay {
   std::vector<Score> scores(const std::vector<Point>& units, Stage stage, bool flat = false,
                             double most_seconds = 0);
   JudgedDesigns judged(const std::vector<Point>& units, Stage stage);
-  // From now on answers depend on the picked design: they are asked anew, beside the journal, when
-  // the earlier run picked another.
+  // From now on answers depend on the picked design: where the earlier run picked another, or its
+  // version asked otherwise, what the journal does not have is asked beside it.
   void picked() { picked_ = true; }
   bool beside_journal() const { return beside_journal_; }
   // The run is at its end: continued, it asks nothing more. exhausted: the search ended since its
@@ -83,6 +83,8 @@ class Replay {
  private:
   std::vector<TaskRequest> requests_of(const std::vector<Point>& units, Stage stage, bool flat,
                                        double most_seconds) const;
+  // From the journal wherever they stand in it; the others are asked and not recorded.
+  std::vector<TaskAnswer> answers_beside(const std::vector<TaskRequest>& requests);
   // Of the first ones alone where the run is stopped.
   std::vector<TaskAnswer> ask(const std::vector<TaskRequest>& requests);
   std::vector<Score> scores_of(const std::vector<Point>& units, bool flat,

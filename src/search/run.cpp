@@ -32,7 +32,7 @@ constexpr double kPagePatches = 2, kUsualSkins = 16;
 void check_pick_rule(const std::string& rule, const StudyProblem& problem) {
   std::vector<std::string> names;
   for (const StudyObjective& o : problem.objectives()) names.push_back(o.name);
-  read_pick_rule(rule, names, problem.driven());
+  read_pick_rule(rule, names, problem.judged_at_amplitude());
 }
 
 // What can be refused before anything is written.

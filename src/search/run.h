@@ -33,12 +33,12 @@ inline constexpr const char* kProgressFile = ".progress.json";
 
 // Why the search ended.
 enum class SearchEnd {
-  Budget,     // as many evaluations as were asked for
+  Budget,     // all evaluations that were asked for are done
   Exhausted,  // the method had nothing more to try
-  Refusals,   // the limits of the shape refused ten times the budget
-  Clock,
-  Asked,   // OptimiseOptions::finish
-  Before,  // in the run that is resumed, which went on to its confirmation
+  Refusals,   // evaluated plus refused designs (limits of the shape): ten times the budget
+  Clock,      // the time limit
+  Asked,      // OptimiseOptions::finish
+  Before,     // it had ended in the run that is resumed, for a reason that its journal does not say
 };
 
 // A part of the run that the clock cut: evaluations, designs, or 0 of 1 where it was left out.
@@ -47,9 +47,9 @@ struct ClockCut {
   std::size_t done = 0, of = 0;
 };
 
-struct SkinnedScore {
+struct ScoreBySkin {
   Score score;
-  std::vector<Score> by_skin;  // as each of the skins moves it by a standard error
+  std::vector<Score> by_skin;  // [skin] the score, moved by that skin's share of its standard error
 };
 
 struct FinalDesign {
@@ -59,31 +59,34 @@ struct FinalDesign {
   Score searched, confirmed;
   std::vector<TaskAnswer> answers;  // behind the confirmed score, without their reports
   std::vector<Score> members;       // at each member of belief; empty: not asked for
-  // Where `members` are. [skin]: as each of the skins behind the answers moves `confirmed` by a
-  // standard error. few: the members on few skins by themselves, last the finger as it is.
+  // Both are empty where `members` is. confirmed_by_skin: [skin] `confirmed`, moved by that skin's
+  // share of its standard error. few: the scores on few skins alone, one per member and last the
+  // finger as it is; `members` are `confirmed` moved by the differences between these.
   std::vector<Score> confirmed_by_skin;
-  std::vector<SkinnedScore> few;
+  std::vector<ScoreBySkin> few;
   bool feasible = false, on_front = false;
   // "front/01"; "best" for the least-violating one where none keeps every constraint; empty for the
   // rest.
   std::string folder;
 };
 
-// What is made: the recommended design with its numbers on the grid of the fab.
+// The design to build: the recommended one with its dimensions rounded to the grid of the fab.
 struct BuiltDesign {
-  FinalDesign made;      // confirmed: ok where it was judged, at the level of the confirmation
-  bool widened = false;  // nearer designs of the grid break a limit
-  bool on_grid = true;   // no: it is as searched, for those of the grid that were judged break one
-  std::size_t judged = 0;                // designs of the grid
-  std::optional<FinalDesign> nearest{};  // of the grid that keeps the limits of the shape, judged
+  FinalDesign made;      // `confirmed` is ok if it was evaluated, at the confirmation's accuracy
+  bool widened = false;  // rounded designs that are nearer to the recommended one break a limit
+  // False: every rounded design that was evaluated breaks a limit, so `made` is not rounded.
+  bool on_grid = true;
+  std::size_t judged = 0;  // how many rounded designs were evaluated
+  // The nearest rounded design that keeps the limits of the shape, if it was evaluated.
+  std::optional<FinalDesign> nearest{};
 };
 
 struct OptimiseResult {
   std::string method, why;
   int evaluations = 0, failures = 0, refused = 0;  // refused: by geometry, without an evaluation
-  int lost = 0;           // damaged records of the resumed run, computed anew
-  std::string kept_copy;  // of its journal as it was, where there are some
-  int asked = 0;          // evaluations
+  int lost = 0;           // damaged records in the journal of the resumed run; computed again
+  std::string kept_copy;  // if lost > 0: where the damaged journal is kept
+  int asked = 0;          // the budget: how many evaluations were asked for
   SearchEnd end = SearchEnd::Budget;
   std::vector<ClockCut> cuts;  // by the time limit, in the order of the run
   std::vector<OneValue> one_value;
@@ -93,10 +96,12 @@ struct OptimiseResult {
   bool any_feasible = false;
   std::vector<std::string> never_kept;  // constraints that no design of the search keeps
   std::vector<FinalDesign> finalists;   // by first objective, best first
-  std::size_t best = 0;                 // of the finalists: highest worst modulation, or as picked
-  std::optional<Score> flat;            // the best surface without its texture, confirmed
+  // Index in `finalists`: the design that was picked by number; else the choice over the belief
+  // where there is one; else by the pick rule.
+  std::size_t best = 0;
+  std::optional<Score> flat;         // the best surface without its texture, confirmed
   std::optional<Score> flat_before;  // the study's own, where the best has another finish or drive
-  // Either, where it was asked and has no answer, as of a surface that is pulled in.
+  // `flat` or `flat_before` if it was evaluated and has no answer, for example because of pull-in.
   std::optional<Score> flat_unanswered, flat_before_unanswered;
   std::optional<BuiltDesign> build;
   Decision decision;           // by belief
@@ -136,7 +141,7 @@ struct OptimiseOptions {
   std::string pick{};  // which design of the front is the best: a rule of pick_design
   const ResultWriter* writer =
       nullptr;          // none: the folder has the journal, the plan and no results
-  bool finish = false;  // no new design but a first: those of the journal are judged and confirmed
+  bool finish = false;  // search no further (but for one design if the journal has none); confirm
 };
 
 // Throws InputError for a folder that belongs to another study or is in use, for one without a run

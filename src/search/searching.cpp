@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "search/levels.h"
 #include "search/stages.h"
@@ -48,7 +49,15 @@ class Searching {
  private:
   // Cheap outcomes that steer. Few at a time, so that a kill loses little and Ctrl-C is heard; some
   // of each round, however short the time.
-  void draft(const std::vector<Point>& units) {
+  void draft(std::vector<Point> units) {
+    // A round that began with what the last one was cut at, as it may of few choices, would be read
+    // from the journal as that one going on.
+    if (units.front() == cut_at_) {
+      if (units.size() > 1)
+        std::swap(units[0], units[1]);
+      else
+        units.clear();
+    }
     std::vector<Evaluation> batch;
     while (batch.size() < units.size() && (batch.empty() || next_is_draft(units[batch.size()]))) {
       const auto begin = units.begin() + static_cast<std::ptrdiff_t>(batch.size());
@@ -63,6 +72,7 @@ class Searching {
           "draft", drafts_, run_.search.drafts,
           run_.seconds_of_designs(static_cast<std::size_t>(left), Stage::Draft) + seconds_left());
     }
+    cut_at_ = batch.size() < units.size() ? units[batch.size()] : Point{};
     searcher_->tell(batch);
   }
 
@@ -156,6 +166,7 @@ class Searching {
   std::size_t budget_, evaluated_ = 0;
   double begun_;  // [s] since the run began
   int drafts_ = 0;
+  Point cut_at_;  // the first design of a round of drafts that the clock left; empty: it left none
   std::map<Point, std::size_t> known_;  // place of a design in the history
   std::size_t known_in_row_ = 0;        // asked of since the last design that was not known
   bool judges_again_;

@@ -103,10 +103,16 @@ void share_out(std::vector<VariableSensitivity>& all, std::size_t objective) {
     s.share[objective] = sum > 0 && !s.change.empty() ? square(s.change[objective]) / sum : 0;
 }
 
+// The part of a step that the space leaves this way.
+double part_in_space(const Point& centre, std::size_t variable, int sign) {
+  const double room = sign > 0 ? 1 - centre[variable] : centre[variable];
+  return std::min(1.0, room / kStep);
+}
+
 // Why a number was not moved this way.
 Drift::End not_moved(const Point& centre, std::size_t variable, int sign) {
-  const double at = centre[variable] + sign * kStep;
-  return at < 0 || at > 1 ? Drift::End::RangeEnds : Drift::End::NoShape;
+  return part_in_space(centre, variable, sign) < kLeastPart ? Drift::End::RangeEnds
+                                                            : Drift::End::NoShape;
 }
 
 }  // namespace
@@ -115,16 +121,18 @@ std::vector<SensitivityMove> sensitivity_moves(const StudyProblem& problem,
                                                const MovedDesign& centre) {
   const DesignSpace& space = problem.space();
   std::vector<SensitivityMove> out;
+  if (centre.unit.empty()) return out;  // the study's own surface, beside the space
+  const Point here = space.snapped(centre.unit);
   for (std::size_t k = 0; k < centre.unit.size(); ++k) {
     if (!space.cube().dimensions[k].choices.empty() ||
         (centre.flat && problem.study().variables[k].path.starts_with("texture.")))
       continue;
     for (int sign : {-1, 1}) {
-      for (double part = 1; part >= kLeastPart; part /= 2) {
-        const Point u = moved_point(centre.unit, k, part * sign * kStep);
-        if (not_moved(centre.unit, k, sign) == Drift::End::RangeEnds) break;
+      for (double part = part_in_space(centre.unit, k, sign); part >= kLeastPart; part /= 2) {
+        Point u = moved_point(centre.unit, k, part * sign * kStep);
+        u[k] = std::clamp(u[k], 0.0, 1.0);  // a bound that rounding would pass
         if (!problem.constraints().possible(space.design(u))) continue;
-        if (space.snapped(u) != centre.unit) out.push_back({k, sign, u, part});
+        if (space.snapped(u) != here) out.push_back({k, sign, u, part});
         break;
       }
     }
@@ -157,11 +165,12 @@ std::vector<VariableSensitivity> sensitivity(const StudyProblem& problem, const 
     }
     const double tried = std::abs(problem.space().value(unit)[k] - centre_values[k]);
     s.step = tried / part;
-    const bool second = !s.change.empty();
-    if (!second) s.change.assign(objectives.size(), 0);
+    // Between both ends where there are two, so that a short part on one side tells little.
+    const double before = s.change.empty() ? 0 : moves[i - 1].part;
+    if (s.change.empty()) s.change.assign(objectives.size(), 0);
     for (std::size_t o = 0; o < objectives.size(); ++o) {
-      const double up = sign * (moved[i].values[o] - at_centre.values[o]) / part;
-      s.change[o] = second ? 0.5 * (s.change[o] + up) : up;
+      const double up = sign * (moved[i].values[o] - at_centre.values[o]);
+      s.change[o] = (s.change[o] * before + up) / (before + part);
     }
     drift = drift_of(tried, room_to_loss(objectives, at_centre, moved[i]),
                      {room_before_evaluation(problem, centre, moves[i]),

@@ -15,7 +15,7 @@ struct Drift {
     Loss,       // an objective is worse by what is tolerated
     Limit,      // a limit of the study is reached
     StepTried,  // nothing within the step that was tried
-    RangeEnds,  // not judged: the space ends before that step
+    RangeEnds,  // not judged: the space ends here
     NoShape,    // not judged: no such shape can be made
     Failed,     // not judged: the evaluation failed
   };
@@ -34,7 +34,8 @@ struct VariableSensitivity {
   Drift down, up;
 };
 
-// One variable of the design moved by a step, or the largest part of it that makes a shape.
+// One variable of the design moved by a step, or the largest part of it that the space leaves and
+// that makes a shape.
 struct SensitivityMove {
   std::size_t variable = 0;
   int sign = 0;
@@ -48,7 +49,8 @@ struct MovedDesign {
   bool flat = false;
 };
 
-// Along each continuous variable, both ways where the space and the shape allow.
+// Along each continuous variable that does something here, both ways where the space and the shape
+// allow; of another kind's numbers and of a texture that is not there none.
 std::vector<SensitivityMove> sensitivity_moves(const StudyProblem& problem,
                                                const MovedDesign& centre);
 

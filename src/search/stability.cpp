@@ -61,7 +61,7 @@ std::vector<Variant> variants(const StudyProblem& problem) {
 // the difference, skin by skin where the samples of both are known; where belief decides, in the
 // worst modulation too (on_front_of_belief).
 bool beats(const StudyProblem& problem, const TaskAnswer& a, const TaskAnswer& b) {
-  if (problem.belief() && problem.driven() && a.worst <= b.worst) return false;
+  if (problem.belief() && problem.judged_at_amplitude() && a.worst <= b.worst) return false;
   const std::vector<StudyObjective>& objectives = problem.objectives();
   for (std::size_t k = 0; k < objectives.size(); ++k) {
     const TaskObjective &better = a.objectives[k], &worse = b.objectives[k];

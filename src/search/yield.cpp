@@ -189,7 +189,8 @@ std::size_t plates_of(const Study& study, bool confirmed) {
   return confirmed && !limits_look(study) ? kPlates : kFewPlates;
 }
 
-double yield_price(const Study& study, std::size_t searched, std::size_t confirmed) {
+double yield_price(const Study& study, std::size_t looks, std::size_t searched,
+                   std::size_t confirmed) {
   constexpr double kPlate = 1e-5, kLook = 1e-3;  // [s]
   if (!YieldModel::exists(study)) return 0;
   const bool limited =
@@ -197,7 +198,7 @@ double yield_price(const Study& study, std::size_t searched, std::size_t confirm
                   [](const Constraint& c) { return std::holds_alternative<YieldLimit>(c.on); });
   std::size_t plates = plates_of(study, true) * (1 + study.scatter.size());  // of what is built
   if (limited) plates += searched * kFewPlates + confirmed * plates_of(study, true);
-  return static_cast<double>(plates) * (limits_look(study) ? kLook : kPlate);
+  return static_cast<double>(plates) * (looks > 0 ? static_cast<double>(looks) * kLook : kPlate);
 }
 
 std::optional<std::size_t> Yield::costliest() const {

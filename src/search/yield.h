@@ -16,8 +16,10 @@ inline constexpr std::size_t kPlates = 10000, kFewPlates = 1000;
 // millisecond a plate.
 std::size_t plates_of(const Study& study, bool confirmed);
 // Processor time of the yields of a study [s], of so many designs below the confirmation and
-// confirmed ones.
-double yield_price(const Study& study, std::size_t searched, std::size_t confirmed);
+// confirmed ones. looks: that are calculated of a plate, one in each scenario that shows another
+// (StudyConstraints::looked_at); 0: they are known from evaluations.
+double yield_price(const Study& study, std::size_t looks, std::size_t searched,
+                   std::size_t confirmed);
 
 struct Yield {
   YieldShare now;

@@ -49,12 +49,6 @@ std::vector<MetricExpression> sloping_metrics(const Design& design) {
   return {{Summary::Mean, kModulation}, {Summary::Variation, kModulation}};
 }
 
-// The design that the text of a page cannot change: its title says nothing about the answer.
-Design untitled(Design design) {
-  design.title.clear();
-  return design;
-}
-
 }  // namespace
 
 const char* name_of(Step step) {
@@ -85,31 +79,39 @@ Evaluator::~Evaluator() {
   finer_.join();
 }
 
-void Evaluator::wish(Wish wish) {
-  wish.design = untitled(std::move(wish.design));
-  for (auto& [number, design] : wish.pinned) design = untitled(std::move(design));
+// Without its title, which says nothing about the answer.
+Evaluator::Subject Evaluator::subject_of(const Design& design) {
+  Subject out{design, maps_state(design.texture, design.finger)};
+  out.design.title.clear();
+  return out;
+}
+
+void Evaluator::wish(const Wish& wish) {
+  Question question{0, wish.revision, subject_of(wish.design), {}};
+  for (const auto& [number, design] : wish.pinned)
+    question.pinned.emplace(number, subject_of(design));
   {
     const std::lock_guard lock(mutex_);
-    wish.number = ++wishes_;
-    asked_at_[wish.revision] = Clock::now().time_since_epoch().count();
-    wanted_ = std::move(wish);
+    question.number = ++wishes_;
+    asked_at_[question.revision] = Clock::now().time_since_epoch().count();
+    wanted_ = std::move(question);
     stop_refining_ = true;
   }
   changed_.notify_all();
 }
 
-bool Evaluator::outdated(const Wish& wish) const {
+bool Evaluator::outdated(const Question& wish) const {
   return closing_ || !wanted_ || wanted_->number != wish.number;
 }
 
-Evaluator::Known& Evaluator::known(const Design& design) {
+Evaluator::Known& Evaluator::known(const Subject& subject) {
   const auto at = std::find_if(known_.begin(), known_.end(),
-                               [&](const Known& k) { return k.design == design; });
+                               [&](const Known& k) { return k.subject == subject; });
   if (at != known_.end()) {
     std::rotate(at, at + 1, known_.end());
   } else {
     if (known_.size() >= kMostKnown) known_.erase(known_.begin());
-    known_.push_back({design, {}, {}, {}});
+    known_.push_back({subject, {}, {}, {}});
   }
   return known_.back();
 }
@@ -121,13 +123,14 @@ void Evaluator::answer_first() {
       return closing_ || (wanted_ && (!answered_ || answered_->number != wanted_->number));
     });
     if (closing_) return;
-    const Wish wish = *wanted_;
+    const Question wish = *wanted_;
     lock.unlock();
     try {
       answer(wish);
-      if (wish.design.texture != shaped_) {
-        listener_.shape(wish.revision, wish.design);
-        shaped_ = wish.design.texture;
+      const Subject& now = wish.at_hand;
+      if (!shaped_ || now.design.texture != shaped_->design.texture || now.maps != shaped_->maps) {
+        listener_.shape(wish.revision, now.design);
+        shaped_ = now;
       }
     } catch (const std::exception& error) {
       listener_.failed(wish.revision, error.what());
@@ -138,46 +141,48 @@ void Evaluator::answer_first() {
   }
 }
 
-void Evaluator::answer(const Wish& wish) {
+void Evaluator::answer(const Question& wish) {
   std::unique_lock lock(mutex_);
-  const std::map<Step, Response> refined = known(wish.design).refined;
+  const std::map<Step, Response> refined = known(wish.at_hand).refined;
   lock.unlock();
   if (!refined.empty())  // an undo, a pin: the finest that is known
     return tell(wish, refined.rbegin()->first, refined.rbegin()->second);
-  tell(wish, Step::First, first_answer_of(wish.design, &kept_));
+  tell(wish, Step::First, first_answer_of(wish.at_hand, &kept_));
 }
 
-Response Evaluator::first_answer_of(const Design& design, KeptPatches* kept) {
+Response Evaluator::first_answer_of(const Subject& subject, KeptPatches* kept) {
   std::unique_lock lock(mutex_);
-  const std::shared_ptr<const Anchor> held = anchor_, anchor = carrying(design);
-  std::optional<Response> quick = known(design).quick;
+  const std::shared_ptr<const Anchor> held = anchor_, anchor = carrying(subject);
+  std::optional<Response> quick = known(subject).quick;
   lock.unlock();
   if (!quick) {
-    quick = quick_answer(design, anchor.get(), kept);
+    quick = quick_answer(subject.design, anchor.get(), kept);
     lock.lock();
-    if (anchor_ == held) known(design).quick = quick;
+    if (anchor_ == held) known(subject).quick = quick;
     lock.unlock();
   }
-  return first_answer(*quick, design, anchor.get());
+  return first_answer(*quick, subject.design, anchor.get());
 }
 
-std::shared_ptr<const Anchor> Evaluator::carrying(const Design& design) const {
-  return anchor_ && carries(*anchor_, design) ? anchor_ : nullptr;
+std::shared_ptr<const Anchor> Evaluator::carrying(const Subject& subject) const {
+  const bool does = anchor_ && anchor_maps_ == subject.maps && carries(*anchor_, subject.design);
+  return does ? anchor_ : nullptr;
 }
 
-void Evaluator::hold_on(const Design& design, const Response& refined) {
+void Evaluator::hold_on(const Subject& subject, const Response& refined) {
   std::unique_lock lock(mutex_);
   const std::shared_ptr<const Anchor> before = anchor_;
+  const bool same = before && Subject{before->design, anchor_maps_} == subject;
   lock.unlock();
-  const bool same = before && before->design == design;
-  Anchor anchor = same ? *before : anchor_of(design, refined);
+  Anchor anchor = same ? *before : anchor_of(subject.design, refined);
   anchor.refined = refined;
   lock.lock();
   if (!same) {  // their quick answers are by other load laws
     for (Known& k : known_) k.quick.reset();
-    known(design).quick = anchor.quick;
+    known(subject).quick = anchor.quick;
   }
   anchor_ = std::make_shared<const Anchor>(std::move(anchor));
+  anchor_maps_ = subject.maps;
 }
 
 void Evaluator::refine_while_idle() {
@@ -189,7 +194,7 @@ void Evaluator::refine_while_idle() {
       return closing_ || (answered_ && !outdated(*answered_) && refined_ != answered_->number);
     });
     if (closing_) return;
-    const Wish wish = *answered_;
+    const Question wish = *answered_;
     if (changed_.wait_for(lock, kStill, [&] { return outdated(wish); })) continue;
     stop_refining_ = false;
     lock.unlock();
@@ -207,12 +212,12 @@ void Evaluator::refine_while_idle() {
   }
 }
 
-void Evaluator::refine(const Wish& wish) {
-  listener_.look(wish.revision, wish.design);
+void Evaluator::refine(const Question& wish) {
+  listener_.look(wish.revision, wish.at_hand.design);
   for (const Step step : {Step::Draft, Step::Design}) {
-    refine_to(wish, wish.design, step, name_of(step));
-    for (const auto& [number, design] : wish.pinned)
-      refine_to(wish, design, step, "pinned design, " + std::string(name_of(step)));
+    refine_to(wish, wish.at_hand, step, name_of(step));
+    for (const auto& [number, subject] : wish.pinned)
+      refine_to(wish, subject, step, "pinned design, " + std::string(name_of(step)));
   }
   listener_.refining(wish.revision, "", 1);
   if (slopes_wanted_) find_slopes(wish);
@@ -228,45 +233,47 @@ void Evaluator::want_slopes(bool wanted) {
   changed_.notify_all();
 }
 
-void Evaluator::find_slopes(const Wish& wish) {
+void Evaluator::find_slopes(const Question& wish) {
+  const Design& at_hand = wish.at_hand.design;
   std::unique_lock lock(mutex_);
-  std::vector<Slope> out = known(wish.design).slopes;
+  std::vector<Slope> out = known(wish.at_hand).slopes;
   lock.unlock();
   listener_.slopes(wish.revision, out);
-  const Fidelity fidelity = fidelity_of_step(wish.design, Step::Draft);
+  const Fidelity fidelity = fidelity_of_step(at_hand, Step::Draft);
   const auto moved = [&](const std::string& path, double value) {
-    Design design = wish.design;
+    Design design = at_hand;
     set_number(design, path, value);
     return evaluate(scene_of(design), design.texture, fidelity);
   };
-  for (const std::string& path : sloping_numbers(wish.design)) {
+  for (const std::string& path : sloping_numbers(at_hand)) {
     if (!slopes_wanted_) return;
     if (std::any_of(out.begin(), out.end(), [&](const Slope& s) { return s.path == path; }))
       continue;
-    const DesignStep step = design_step(wish.design, path, kSlopeStep);
+    const DesignStep step = design_step(at_hand, path, kSlopeStep);
     if (!step.moves()) continue;
     const Response down = moved(path, step.down), up = moved(path, step.up);
     Slope slope{path, step.unit, step.value, step.down, step.up, {}};
-    for (const MetricExpression& e : sloping_metrics(wish.design)) {
+    for (const MetricExpression& e : sloping_metrics(at_hand)) {
       const ResponseDifference change = difference_of(e, down, up);
       slope.changes.push_back({metric_text(e), change.value, change.error});
     }
     out.push_back(std::move(slope));
     lock.lock();
-    known(wish.design).slopes = out;
+    known(wish.at_hand).slopes = out;
     lock.unlock();
     listener_.slopes(wish.revision, out);
   }
 }
 
 // Whether anything had to be done.
-bool Evaluator::refine_to(const Wish& wish, const Design& design, Step step,
+bool Evaluator::refine_to(const Question& wish, const Subject& subject, Step step,
                           const std::string& what) {
+  const Design& design = subject.design;
   std::unique_lock lock(mutex_);
-  const std::map<Step, Response> before = known(design).refined;
-  const bool compared = design != wish.design && carrying(design);
+  const std::map<Step, Response> before = known(subject).refined;
+  const bool compared = subject != wish.at_hand && carrying(subject);
   lock.unlock();
-  if (compared) first_answer_of(design, nullptr);  // beside what moves next
+  if (compared) first_answer_of(subject, nullptr);  // beside what moves next
   if (before.count(step)) return false;
   const Scene scene = scene_of(design);
   listener_.refining(wish.revision, what, 0);
@@ -279,42 +286,42 @@ bool Evaluator::refine_to(const Wish& wish, const Design& design, Step step,
   } else {
     add_belief(response, scene, design.texture, fidelity);
   }
-  if (design == wish.design) hold_on(design, response);
+  if (subject == wish.at_hand) hold_on(subject, response);
   lock.lock();
-  known(design).refined[step] = response;
-  const std::map<Step, Response> own = known(wish.design).refined;
+  known(subject).refined[step] = response;
+  const std::map<Step, Response> own = known(wish.at_hand).refined;
   lock.unlock();
   if (const auto at = own.find(step); at != own.end()) tell(wish, step, at->second);
   return true;
 }
 
 // First answers are compared as they are shown, and only where one anchor carries both.
-std::optional<Response> Evaluator::response_at(const Design& design, Step step) {
-  const Known& of = known(design);
+std::optional<Response> Evaluator::response_at(const Subject& subject, Step step) {
+  const Known& of = known(subject);
   if (step != Step::First) {
     const auto at = of.refined.find(step);
     return at == of.refined.end() ? std::nullopt : std::optional(at->second);
   }
-  const std::shared_ptr<const Anchor> anchor = carrying(design);
+  const std::shared_ptr<const Anchor> anchor = carrying(subject);
   if (!anchor || !of.quick) return std::nullopt;
-  return first_answer(*of.quick, design, anchor.get());
+  return first_answer(*of.quick, subject.design, anchor.get());
 }
 
-std::vector<Comparison> Evaluator::comparisons(const Wish& wish, Step step) {
+std::vector<Comparison> Evaluator::comparisons(const Question& wish, Step step) {
   const std::array<MetricExpression, 4> compared{{{Summary::Mean, kModulation},
                                                   {Summary::Worst, kModulation},
                                                   {Summary::Variation, kModulation},
                                                   {Summary::Mean, kFriction}}};
   if (wish.pinned.empty()) return {};
   const std::lock_guard lock(mutex_);
-  const auto quick = [&](const Design& d) -> Response { return *known(d).quick; };
+  const auto quick = [&](const Subject& s) -> Response { return *known(s).quick; };
   std::vector<Comparison> out;
-  const std::optional<Response> ours = response_at(wish.design, step);
-  for (const auto& [number, design] : wish.pinned) {
-    const std::optional<Response> theirs = response_at(design, step);
+  const std::optional<Response> ours = response_at(wish.at_hand, step);
+  for (const auto& [number, subject] : wish.pinned) {
+    const std::optional<Response> theirs = response_at(subject, step);
     if (!theirs || !ours) continue;
     const double drift =
-        step == Step::First ? difference_drift(quick(design), quick(wish.design)) : 0;
+        step == Step::First ? difference_drift(quick(subject), quick(wish.at_hand)) : 0;
     for (const MetricExpression& e : compared) {
       const auto a = summarise(e.summary, e.metric, *ours);
       const auto b = summarise(e.summary, e.metric, *theirs);
@@ -328,7 +335,7 @@ std::vector<Comparison> Evaluator::comparisons(const Wish& wish, Step step) {
   return out;
 }
 
-void Evaluator::tell(const Wish& wish, Step step, Response shown) {
+void Evaluator::tell(const Question& wish, Step step, Response shown) {
   Answer answer{wish.revision, step, std::move(shown), 0, comparisons(wish, step), {}};
   {
     const std::lock_guard lock(mutex_);
@@ -337,11 +344,11 @@ void Evaluator::tell(const Wish& wish, Step step, Response shown) {
           1e-9 * static_cast<double>(Clock::now().time_since_epoch().count() - at->second);
       asked_at_.erase(asked_at_.begin(), at);
     }
-    for (const auto& [number, design] : wish.pinned) {
-      const std::map<Step, Response>& refined = known(design).refined;
+    for (const auto& [number, subject] : wish.pinned) {
+      const std::map<Step, Response>& refined = known(subject).refined;
       if (!refined.empty())
         answer.pinned[number] = refined.rbegin()->second;
-      else if (const std::optional<Response> first = response_at(design, Step::First))
+      else if (const std::optional<Response> first = response_at(subject, Step::First))
         answer.pinned[number] = *first;
     }
   }

@@ -25,7 +25,6 @@ struct Wish {
   std::uint64_t revision = 0;
   Design design;
   std::map<int, Design> pinned;  // by their numbers
-  std::uint64_t number = 0;      // of the wish; the evaluator's own count
 };
 
 // Finer and finer.
@@ -80,41 +79,56 @@ class Evaluator {
   Evaluator(const Evaluator&) = delete;
   Evaluator& operator=(const Evaluator&) = delete;
 
-  void wish(Wish wish);
+  void wish(const Wish& wish);
   // Slopes are found too, after all else: two drafts a number.
   void want_slopes(bool wanted);
 
  private:
-  struct Known {  // of one design
+  // A design with the state of its maps when it was wished for: one that was written anew under its
+  // name since makes another subject.
+  struct Subject {
     Design design;
+    std::string maps;
+
+    bool operator==(const Subject&) const = default;
+  };
+  struct Question {  // a wish
+    std::uint64_t number = 0, revision = 0;
+    Subject at_hand;
+    std::map<int, Subject> pinned;
+  };
+  struct Known {  // of one subject
+    Subject subject;
     std::optional<Response> quick;     // by the anchor at hand where that carries the design
     std::map<Step, Response> refined;  // Draft, Design
     std::vector<Slope> slopes;
   };
 
   void answer_first();
-  void answer(const Wish& wish);
-  Response first_answer_of(const Design& design, KeptPatches* kept);
+  static Subject subject_of(const Design& design);
+  void answer(const Question& wish);
+  Response first_answer_of(const Subject& subject, KeptPatches* kept);
   void refine_while_idle();
-  void refine(const Wish& wish);
-  bool refine_to(const Wish& wish, const Design& design, Step step, const std::string& what);
-  void find_slopes(const Wish& wish);
-  void tell(const Wish& wish, Step step, Response shown);
-  void hold_on(const Design& design, const Response& refined);  // as the anchor
-  std::vector<Comparison> comparisons(const Wish& wish, Step step);
+  void refine(const Question& wish);
+  bool refine_to(const Question& wish, const Subject& subject, Step step, const std::string& what);
+  void find_slopes(const Question& wish);
+  void tell(const Question& wish, Step step, Response shown);
+  void hold_on(const Subject& subject, const Response& refined);  // as the anchor
+  std::vector<Comparison> comparisons(const Question& wish, Step step);
   // With the lock held.
-  Known& known(const Design& design);
-  std::shared_ptr<const Anchor> carrying(const Design& design) const;  // null: none does
-  std::optional<Response> response_at(const Design& design, Step step);
-  bool outdated(const Wish& wish) const;
+  Known& known(const Subject& subject);
+  std::shared_ptr<const Anchor> carrying(const Subject& subject) const;  // null: none does
+  std::optional<Response> response_at(const Subject& subject, Step step);
+  bool outdated(const Question& wish) const;
 
   Listener listener_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::optional<Wish> wanted_, answered_;  // the newest; the newest that has its first answer
-  std::vector<Known> known_;               // designs used last, at the end
+  std::optional<Question> wanted_, answered_;  // the newest; the newest that has its first answer
+  std::vector<Known> known_;                   // subjects used last, at the end
   std::shared_ptr<const Anchor> anchor_;
-  std::optional<Texture> shaped_;                   // the texture whose shape was told last
+  std::string anchor_maps_;
+  std::optional<Subject> shaped_;                   // whose texture's shape was told last
   std::map<std::uint64_t, std::int64_t> asked_at_;  // by revision [ns]
   std::uint64_t wishes_ = 0, refined_ = 0;
   bool closing_ = false;

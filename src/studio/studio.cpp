@@ -243,7 +243,7 @@ void Studio::design_changed() {
   const std::lock_guard lock(telling_);
   const SessionView view = session_.view();
   const std::map<int, Design> pinned = pinned_designs(view.pins);
-  evaluator_->wish({view.revision, view.study.design, pinned, 0});
+  evaluator_->wish({view.revision, view.study.design, pinned});
   Json session = session_json(view, pinned), rows = std::move(session["keys"]);
   std::optional<Json> moved = moved_since(form_told_, rows);
   if (!moved) {

@@ -17,13 +17,25 @@ const std::regex& register_words() {
   return pattern;
 }
 
+// What names a register there. Each alternative of the pattern needs one of the words.
+std::vector<std::string> named_in(const std::string& text) {
+  std::vector<std::string> out;
+  for (const std::string& s :
+       statements_with(text, {{"simd", "vector_size", "__m", "_mm", "mmintrin", "__builtin_",
+                               "kLanes", "kSize", "kRegisterBytes", "Vector<", "target_clones"}})) {
+    for (std::sregex_iterator it(s.begin(), s.end(), register_words()), end; it != end; ++it)
+      out.push_back(it->str());
+  }
+  return out;
+}
+
 TEST(Registers, AreKnownToNumericsAlone) {
   int files = 0;
   for (const std::string& file : source_files({"src", "optim", "geometry"}, {".h", ".cpp"})) {
     if (file.starts_with("src/numerics/")) continue;
     const std::string text = read_source(std::string(PAPILLA_SOURCE_DIR) + "/" + file);
-    for (std::sregex_iterator it(text.begin(), text.end(), register_words()), end; it != end; ++it)
-      ADD_FAILURE() << file << " names a register: " << it->str();
+    for (const std::string& named : named_in(text))
+      ADD_FAILURE() << file << " names a register: " << named;
     ++files;
   }
   EXPECT_GT(files, 300);
@@ -35,12 +47,12 @@ TEST(Registers, TheRuleSeesWhatItShould) {
         "__m256d v", "__m512 v", "#include <immintrin.h>", "_mm512_add_pd(a, b)",
         "#include <experimental/simd>", "for (i = 0; i < n; i += kLanes)",
         "__builtin_shufflevector(a, b, 0, 4)", "using Eight = Vector<double>;"}) {
-    EXPECT_TRUE(std::regex_search(std::string(wrong), register_words())) << wrong;
+    EXPECT_FALSE(named_in(wrong).empty()) << wrong;
   }
   for (const char* right :
        {"#pragma omp parallel for schedule(dynamic, 1)", "for_each_pixel(n, [&](auto at) {})",
         "std::vector<double> sums", "planes"}) {
-    EXPECT_FALSE(std::regex_search(std::string(right), register_words())) << right;
+    EXPECT_TRUE(named_in(right).empty()) << right;
   }
 }
 

@@ -28,13 +28,13 @@ std::string refusal(const std::string& text, const std::string& unit) {
 
 TEST(Quantities, NamesOfADimensionAreThesePrefixesInThisOrder) {
   const auto names = [](const char* like) { return join_names(unit_names(*find_unit(like))); };
-  EXPECT_EQ(names("m"), "m, fm, pm, nm, um, µm, mm, cm, km, Mm, Gm, Tm");
-  EXPECT_EQ(names("V"), "V, fV, pV, nV, uV, µV, mV, cV, kV, MV, GV, TV");
-  EXPECT_EQ(names("h"), "s, fs, ps, ns, us, µs, ms, cs, ks, Ms, Gs, Ts, min, h");
+  EXPECT_EQ(names("m"), "m, fm, pm, nm, um, µm, μm, mm, cm, km, Mm, Gm, Tm");
+  EXPECT_EQ(names("V"), "V, fV, pV, nV, uV, µV, μV, mV, cV, kV, MV, GV, TV");
+  EXPECT_EQ(names("h"), "s, fs, ps, ns, us, µs, μs, ms, cs, ks, Ms, Gs, Ts, min, h");
   EXPECT_EQ(names("deg"),
-            "rad, frad, prad, nrad, urad, µrad, mrad, crad, krad, Mrad, Grad, Trad, deg");
+            "rad, frad, prad, nrad, urad, µrad, μrad, mrad, crad, krad, Mrad, Grad, Trad, deg");
   EXPECT_EQ(names(""), "%");
-  EXPECT_EQ(names("N m"), "J, fJ, pJ, nJ, uJ, µJ, mJ, cJ, kJ, MJ, GJ, TJ");
+  EXPECT_EQ(names("N m"), "J, fJ, pJ, nJ, uJ, µJ, μJ, mJ, cJ, kJ, MJ, GJ, TJ");
   EXPECT_EQ(names("m2"), "");
 }
 
@@ -55,6 +55,8 @@ TEST(Quantities, AUnitIsAProductOverAProductOfPowers) {
   is("um²/s", {1e-12, 2, 0, -1, 0, 0});
   is("kg mm/ms2 A", {1e3, 1, 1, -2, -1, 0});  // all that follows the stroke divides
   is("1/cm3", {1e6, -3, 0, 0, 0, 0});
+  is("µm", {1e-6, 1, 0, 0, 0, 0});  // the micro sign, and the Greek letter
+  is("μm", {1e-6, 1, 0, 0, 0, 0});
   is("uA h", {3.6e-3, 0, 0, 1, 1, 0});
   is("deg/min", {kPi / 180 / 60, 0, 0, -1, 0, 1});
   is("mF*V2", {1e-3, 2, 1, -2, 0, 0});

@@ -23,8 +23,9 @@ class Planted : public Calibrate {
     return truth;
   }
   // The fit of three parameters to the planted finger's table, from `start`.
-  // Its data are of the level `check`; the fit runs on four skins of 64 pixels.
-  Calibration planted_calibration(const std::string& start, const std::string& check) const;
+  // Its data are of the level `check`; the fit runs on four skins of `grid` pixels.
+  Calibration planted_calibration(const std::string& start, const std::string& check,
+                                  int grid) const;
   std::string planted_file() const {
     return write("truth.toml", "schema_version = 1\nbase = \"" +
                                    find_design("fingers/reference.toml") +
@@ -60,25 +61,26 @@ std::string planted_table(const Finger& truth, const SkinSampling& sampling) {
   return out;
 }
 
-Calibration Planted::planted_calibration(const std::string& start, const std::string& check) const {
-  write("measured.csv", planted_table(planted_finger(), {check, 4, 0, 64}));
+Calibration Planted::planted_calibration(const std::string& start, const std::string& check,
+                                         int grid) const {
+  write("measured.csv", planted_table(planted_finger(), {check, 4, 0, grid}));
+  const std::string pixels = fmt::format("grid = {}\n", grid);
   return read(write("fit.toml", "schema_version = 1\nfinger = \"" + start + R"("
 data = "measured.csv"
 [sampling]
 level = "draft"
-grid = 64
 skins = 4
+)" + pixels + R"(
 [parameters]
 "macro.load_share" = { low = 0.001, high = 0.05 }
 "macro.shear_strength" = { low = "3 MPa", high = "20 MPa" }
 "skin.softening" = { low = 1.2, high = 4.0 }
 [check]
-grid = 64
-level = ")" + check + "\"\n"));
+level = ")" + check + "\"\n" + pixels));
 }
 
 TEST_F(Planted, PlantedParametersAreFoundWithinTheirIntervals) {
-  const Calibration calibration = planted_calibration("fingers/reference.toml", "draft");
+  const Calibration calibration = planted_calibration("fingers/reference.toml", "draft", 64);
   ASSERT_EQ(calibration.data.size(), 8u);
   EXPECT_FALSE(calibration.profiles);
   CalibrationOptions options;
@@ -109,7 +111,7 @@ TEST_F(Planted, PlantedParametersAreFoundWithinTheirIntervals) {
 TEST_F(Planted, AtThePlantedValuesNothingIsLeft) {
   // Of data of the level design too: a draft judges, corrected on the same skins.
   for (const char* level : {"draft", "design"}) {
-    const Calibration calibration = planted_calibration(planted_file(), level);
+    const Calibration calibration = planted_calibration(planted_file(), level, 32);
     CalibrationOptions options;
     options.check = false;
     options.threads = 1;

@@ -174,6 +174,11 @@ TEST(DriveFile, ARenderedSwipeIsDrivenWhileItSticks) {
       render_swipe(read_drive_case(kFingertip, {"drive.control=voltage", "drive.amplitude=100 V"}),
                    Network{}),
       InputError);
+  // A recorded swipe asks for a current too.
+  EXPECT_THROW(swipe_machine(
+                   read_drive_case(kFingertip, {"drive.control=voltage", "drive.amplitude=100 V"})),
+               InputError);
+  EXPECT_EQ(swipe_machine(c).stuck_current, c.swipe.machine(c.drive.current).stuck_current);
 }
 
 TEST(DriveFile, ARecordedSineIsTheSine) {

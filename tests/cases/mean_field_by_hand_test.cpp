@@ -131,6 +131,20 @@ TEST(MeanFieldByHand, ASkinThatYieldsIsSmoothedAtItsPressure) {
   }
 }
 
+// The pull counts: a skin that carries the load alone may yield under a voltage.
+TEST(MeanFieldByHand, ASkinYieldsWhereLoadAndPullReachItsHardness) {
+  MeanFieldCase c = own_case();
+  c.skin.hardness = 1e6;
+  c.sweep = {{0, 80, 1e3, 1e4, 3e4}, {}, {}};
+  const MeanFieldResult r = solve_mean_field(c);
+  for (const MeanFieldPoint& p : r.voltage)
+    EXPECT_EQ(p.yielded, p.on.pull.pressure >= 1e6) << p.voltage;
+  EXPECT_FALSE(r.voltage.front().yielded);
+  EXPECT_TRUE(r.voltage.back().yielded);
+  c.skin.hardness = 0;
+  EXPECT_FALSE(solve_mean_field(c).voltage.back().yielded);
+}
+
 TEST(MeanFieldByHand, CurvesAreThoseOfThePoint) {
   const MeanFieldCase c = own_case();
   const MeanFieldCurves curves = mean_field_curves(c);

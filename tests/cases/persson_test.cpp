@@ -11,6 +11,7 @@
 #include "cases/droplets.h"
 #include "design/design.h"
 #include "report/reference.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests::persson_test {
 namespace {
@@ -108,6 +109,17 @@ TEST(DropletCase, OfADesignHasTheWaterOfItsScene) {
   // In contact somewhere, nowhere below the surface.
   EXPECT_EQ(*std::min_element(c.gap.value.begin(), c.gap.value.end()), 0);
   EXPECT_TRUE(droplets_of_design(file, 0.55, 0, false, true).how.corner_wicking);
+}
+
+// Of flat glass, whose model pins rims: asked for or not.
+TEST(DropletCase, OfADesignHasTheRimsOfItsModel) {
+  Design design = read_design(std::string(PAPILLA_DESIGNS_DIR) + "/m3_samples/flat.toml");
+  design.model.rim_pinning = true;
+  const std::string file = temporary("pinned.toml");
+  write_design(file, design);
+  const DropletCase c = droplets_of_design(file, 0.55, 0, false, false);
+  EXPECT_TRUE(c.how.rim_pinning);
+  EXPECT_FALSE(c.how.corner_wicking);
 }
 
 // Both volumes and every placement once: what single placements give, averaged by hand.

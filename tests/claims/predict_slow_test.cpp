@@ -21,6 +21,7 @@ const std::vector<Prediction>& few_skins() {
     options.finger = read_finger(find_design("fingers/reference.toml"));
     options.finger.belief.clear();  // its members are asked elsewhere
     options.skins = 3;
+    options.grid = 64;
     return predictions(options);
   }();
   return once;

@@ -12,6 +12,7 @@
 #include "claims/reproduce.h"
 #include "design/design.h"
 #include "tests/claims/csv_rows.h"
+#include "tests/support/thorough.h"
 
 namespace papilla::tests::sampled_slow_test {
 namespace {
@@ -41,7 +42,9 @@ TEST(Reproduce, FewerSkinsSayTheSameWithinTheirScatter) {
   const std::string path = std::string(PAPILLA_SOURCE_DIR) + "/results/reproduction/claims.csv";
   for (const auto& row : csv_rows(read_bytes(path))) table[row.at(0)] = row;
   ReproduceOptions options;
-  options.ids = m3_claim_ids();
+  const std::vector<std::string> ids = m3_claim_ids();
+  const auto every = static_cast<std::size_t>(cases(2, 1));
+  for (std::size_t k = 0; k < ids.size(); k += every) options.ids.push_back(ids[k]);
   options.finger = read_finger(std::string(PAPILLA_DESIGNS_DIR) + "/fingers/reference.toml");
   options.sampling.skins = 4;
   const double more = std::sqrt(SkinSampling{}.skins / 4.0);  // scatter of the mean
@@ -71,7 +74,7 @@ TEST(Reproduce, FewerSkinsSayTheSameWithinTheirScatter) {
     compare(r.papilla, 4);
     if (r.claim->both_presets) compare(r.m3, 10);
   }
-  EXPECT_GT(compared, 200u);
+  EXPECT_GT(compared, 200u / every);
 }
 
 }  // namespace

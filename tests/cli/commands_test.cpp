@@ -212,6 +212,18 @@ TEST(Explain, SaysWhatRimsLargerThanTheDepthMakeOfTheWalls) {
             std::string::npos)
       << said("1500nm");
   EXPECT_EQ(said("300nm").find("rims of"), std::string::npos) << said("300nm");
+  // Of a stack by the part that has them.
+  place.write("stack.toml",
+              "schema_version = 1\n[texture]\ntype = \"stack\"\nparts = [{ type = "
+              "\"hole_array\", period = \"3 um\", diameter = \"1 um\", depth = \"50 nm\" }, "
+              "{ type = \"hole_array\", period = \"6 um\", diameter = \"3 um\", depth = "
+              "\"350 nm\", wall_angle = \"88 deg\", edge_radius = \"1500 nm\" }]\n[finger]\nbase "
+              "= \"fingers/reference.toml\"\n");
+  const Outcome stack = place.run("explain stack.toml");
+  EXPECT_NE(stack.out.find("warning: texture.parts.1: rims of 1500 nm end at the depth of 350 nm"),
+            std::string::npos)
+      << stack.out << stack.err;
+  EXPECT_EQ(stack.out.find("texture.parts.0: rims"), std::string::npos) << stack.out;
 }
 
 TEST(Explain, NamesWhatItSkipsAndWhy) {
@@ -257,6 +269,17 @@ TEST(Rank, RefusesADesignAgainstItselfAndARegionWithoutAName) {
   const Outcome nameless = place.run("rank " + kSample + "+ " + kSample + kDraft);
   EXPECT_EQ(nameless.status, 2);
   EXPECT_NE(nameless.err.find("a3h600.toml+"), std::string::npos) << nameless.err;
+}
+
+// A file whose name holds the sign that joins regions is that file.
+TEST(Rank, TakesAFileWhoseNameHoldsAPlus) {
+  const Workplace place;
+  for (const char* name : {"h+1.toml", "h.toml"})
+    place.write(name, std::string("schema_version = 1\ntitle = \"") + name +
+                          "\"\n[texture]\ntype = \"hole_array\"\ndepth = \"350 nm\"\n");
+  const Outcome run = place.run("rank h+1.toml h.toml --by haze --no-parameters --json");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(nlohmann::json::parse(run.out)["candidates"].size(), 2u) << run.out;
 }
 
 // As a design that names the scan, a file for each.
@@ -340,6 +363,23 @@ TEST(Evaluate, AnUndrivenDesignHasNoModulationAndSaysSo) {
   const auto json = nlohmann::json::parse(place.run("evaluate --json " + arguments).out);
   EXPECT_TRUE(json["points"][0]["modulation"].is_null());
   EXPECT_TRUE(json["summary"]["mean_modulation"].is_null());
+}
+
+// What was asked for of the field is in the answer, or why it is not.
+TEST(Evaluate, AnswersTheFieldCheckWithItsNumbers) {
+  const Workplace place;
+  const std::string quick = "-q evaluate " + kSample + kDraft +
+                            "--set accuracy.grid=32 --no-model --set "
+                            "'environment.relative_humidity=[\"50 %\"]' --check-field ";
+  const Outcome json = place.run(quick + "--json"), text = place.run(quick);
+  ASSERT_EQ(json.status, 0) << json.err;
+  const auto rows = nlohmann::json::parse(json.out)["field_check"];
+  ASSERT_GE(rows.size(), 1u) << json.out;
+  EXPECT_TRUE(rows[0]["error"].is_number());
+  EXPECT_NE(text.out.find("of the 3-D field's"), std::string::npos) << text.out;
+  const Outcome undriven = place.run(quick + "--pull-in --set drive.amplitude=0V");
+  EXPECT_NE(undriven.out.find("--pull-in and --check-field: the drive is at 0"), std::string::npos)
+      << undriven.out;
 }
 
 TEST(Evaluate, TheResolvedFileGivesTheSameBytesOnTwoThreadsAsTheDesignOnOne) {
@@ -650,6 +690,9 @@ TEST(Program, MistakesOnTheCommandLineNameThemselves) {
                 " --set finger.skin.map=" PAPILLA_TEST_DATA
                 "/../../designs/measured_surface/scan.gsf --set model.closure=persson",
             "finger.skin.map"},
+           {"evaluate " + kSample + " --sweep drive.amplitude=50..50:3",
+            "expected another end than the beginning"},
+           {"export " + kSample + " --size '12x0 um'", "expected lengths above 0"},
            {"optimize " PAPILLA_TEST_DATA "/study/tiny.toml --time '-1 min'", "--time"},
            {"optimize " PAPILLA_TEST_DATA "/study/tiny.toml --finish", "add --resume"},
            {"optimize " PAPILLA_TEST_DATA "/study/tiny.toml --set objective.risk='mean - -2 std'",
@@ -690,13 +733,63 @@ TEST(Program, RefusesOptionsThatItWouldNotObey) {
            {"solve droplets --gap g.npy --humidity 55%", "--humidity is of --design"},
            {"solve droplets --gap g.npy --skin 0", "--skin is of --design"},
            {"solve droplets --gap g.npy --pin-edges", "--pin-edges is of --design"},
-           {"solve droplets --gap g.npy --wick-corners", "--wick-corners is of --design"}}) {
+           {"solve droplets --gap g.npy --wick-corners", "--wick-corners is of --design"},
+           {"solve droplets --gap g.npy --placements 4 --out drops.png",
+            "--out draws one placement"},
+           {"solve droplets --gap g.npy --spread 0.2", "--spread is of --placements"},
+           {"solve contact --height g.npy --threads 2", "--threads is of a case of statistics"},
+           {"solve contact --height g.npy --out d", "--out is of a case of statistics"},
+           {"solve contact --height g.npy --set a=1", "--set is of a case of statistics"},
+           {"solve contact --height g.npy --modulus 1MPa --bulk-modulus 1MPa",
+            "--bulk-modulus is of --layer-modulus"},
+           {"solve contact --height g.npy --modulus 1MPa --layer-poisson 0.4",
+            "--layer-poisson is of --layer-modulus"},
+           {"solve contact --height g.npy --modulus 1MPa --counter-poisson 0.4",
+            "--counter-poisson is of --counter-modulus"},
+           {"solve contact c.toml --pressure 1kPa", "--pressure is of --height"},
+           {"solve contact c.toml --modulus 1MPa", "--modulus is of --height"},
+           {"solve contact c.toml --out-gap g.npy", "--out-gap is of --height"},
+           {"solve contact c.toml --size 4um", "--size is of --height"},
+           {"solve haze d.toml --size 4um", "--size is of --height"},
+           {"solve haze d.toml --level", "--level is of --height"},
+           {"solve haze --height g.npy --set a=1", "--set is of a design FILE"},
+           {"solve field --gap g.npy --voltage 1V --process planar", "--process is of --texture"},
+           {"solve field --gap g.npy --voltage 1V --edge-radius 5nm",
+            "--edge-radius is of --texture"},
+           {"solve field --gap g.npy --voltage 1V --texture t.npy --step-coverage 0.5",
+            "--step-coverage is of --process directional"},
+           {"surface g.npy --as-is --level", "give one of them"},
+           {"export " + kSample + " --format npy --repeat 3", "--repeat is of exr"},
+           {"export " + kSample + " --format npy,exr --facet-error 2nm",
+            "--facet-error is of gds and oasis"},
+           {"rank a.toml b.toml --base c.toml", "--base is for scans"},
+           {"rank a.toml b.toml --parameters --no-parameters", "give one of them"},
+           {"next lab --show --count 4", "--count is of a plan, and --show makes none"},
+           {"next lab --show --day 1", "--day is of a plan, and --show makes none"},
+           {"next lab --time '0 min'", "--time: \"0 min\": expected more than 0 min"},
+           {"next lab --time='-5 min'", "--time: \"-5 min\": expected more than 0 min"}}) {
     const Outcome run = place.run(arguments);
     EXPECT_EQ(run.status, 2) << arguments;
     EXPECT_EQ(run.out, "") << arguments;
     EXPECT_NE(run.err.find(message), std::string::npos) << arguments << "\n" << run.err;
   }
   EXPECT_EQ(place.entries(), 0);
+}
+
+// Options that may be named several times take one value each time.
+TEST(Program, OptionsLeaveTheArgumentsBehindTheirValues) {
+  const Workplace place;
+  EXPECT_EQ(place.run("export --format npy,gsf " + kSample + " --pixels 64 --out out").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(place.path() / "out/heightmap.gsf"));
+  EXPECT_EQ(place.run("solve haze --angle '10 deg' " + kSample + " --json").status, 0);
+  EXPECT_EQ(
+      place.run("solve haze --set surface.refractive_index=1.5 " + kSample + " --json").status, 0);
+  for (const std::string arguments : {"evaluate --voltage-for 0.5 nowhere.toml --no-model",
+                                      "verify --receipt r01 nowhere.toml --geometry"}) {
+    const Outcome run = place.run(arguments);
+    EXPECT_EQ(run.status, 2) << arguments;
+    EXPECT_EQ(run.err.find("is required"), std::string::npos) << run.err;
+  }
 }
 
 TEST(Reproduce, GivesTheDocumentedJsonAndTables) {

@@ -39,6 +39,19 @@ TEST(ShippedNames, AreFoundFromAnyFolder) {
 
 // --- verify ---
 
+TEST(VerifyCommand, RefusesOfAWaferWhatIsOfRunsAndExports) {
+  const Workplace place;
+  place.write("w/wafer.toml", "schema_version = 1\n");
+  for (const std::string option :
+       {"--receipt r99", "--time banana", "--tolerance '1 %'", "--jobs 2", "--geometry"}) {
+    const Outcome run = place.run("verify w " + option);
+    EXPECT_EQ(run.status, 2) << option;
+    EXPECT_NE(run.err.find(option.substr(0, option.find(' ')) + " is of runs and exports"),
+              std::string::npos)
+        << run.err;
+  }
+}
+
 TEST(VerifyCommand, NamesTheFileThatWasSwappedAndTheOneThatWasCutOff) {
   const Workplace place;
   const std::string how = " --pixels 64 --polarity white-deep --out ";

@@ -876,6 +876,55 @@ TEST(Toml, KeysHaveTwoHundredDotsAtMost) {
     EXPECT_EQ(refusal_of([&] { parse_toml(text, "x"); }), "");
 }
 
+// Each key alone has fewer than two hundred; those of the tables around it go with it.
+TEST(Toml, KeysInTablesHaveFourHundredDotsInAllAtMost) {
+  std::string key = "a";
+  for (int i = 0; i < 150; ++i) key += ".a";
+  const auto nested = [&](int levels, const std::string& open, const std::string& close) {
+    std::string out = key + " = 1";
+    for (int i = 1; i < levels; ++i) out = key + " = " + open + out + close;
+    return out + "\n";
+  };
+  for (const auto& [open, close] :
+       {std::pair("{ ", " }"), std::pair("[{ ", " }]"), std::pair("[1.5,\n{ ", " }\n]")}) {
+    EXPECT_EQ(refusal_of([&] { parse_toml(nested(2, open, close), "x"); }), "") << open;
+    for (const int levels : {3, 100})
+      EXPECT_TRUE(refusal_of([&] {
+                    parse_toml(nested(levels, open, close), "x");
+                  }).ends_with("more than 400 dots in a key and those that it stands in"))
+          << open;
+  }
+  // Of tables beside each other none stands in another.
+  std::string many = "x = [";
+  for (int i = 0; i < 5; ++i) many += "{ " + key + " = 1.5, b = [1.5] }, ";
+  EXPECT_EQ(refusal_of([&] { parse_toml(many + "]\ny." + key + " = { z = 1 }\n", "x"); }), "");
+}
+
+// Signs in quotes part no keys, and dots there make no tables.
+TEST(Toml, QuotedPartsOfAKeyCountAsOthers) {
+  const auto key = [](const std::string& part, int dots) {
+    std::string out = part;
+    for (int i = 0; i < dots; ++i) out += "." + part;
+    return out;
+  };
+  for (const char* part : {"\"=\"", "\",\"", "'='", "\"\\\"=\"", "'\"'", "\"a.b\""}) {
+    EXPECT_EQ(refusal_of([&] { parse_toml(key(part, 150) + " = 1\n", "x"); }), "") << part;
+    EXPECT_TRUE(refusal_of([&] {
+                  parse_toml(key(part, 201) + " = 1\n", "x");
+                }).ends_with("x:1:1: more than 200 dots in a key"))
+        << part;
+  }
+  const std::string many(300, '.');
+  for (const std::string& text :
+       {"a = \"" + many + "\"\n", "'" + many + "' = 1\n", "a = '''" + many + "''''\n",
+        "a = \"\"\"\n\\\"\"\" " + many + "\n\"\"\"\"\"\n"})
+    EXPECT_EQ(refusal_of([&] { parse_toml(text, "x"); }), "") << text;
+  // A text that does not end in its line hides none of the next.
+  EXPECT_TRUE(refusal_of([&] {
+                parse_toml("a = '\"' \"\\\n" + key("b", 201) + " = 1\n", "x");
+              }).ends_with("x:2:1: more than 200 dots in a key"));
+}
+
 // Wherever they stand; a '#' in quotes begins none, so that it hides no deep key.
 TEST(Toml, CommentsMayHaveAnyNumberOfDots) {
   const std::string many(300, '.');

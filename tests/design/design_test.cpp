@@ -361,6 +361,14 @@ TEST(Study, ScenariosHaveNamesWeightsAndSettings) {
   EXPECT_EQ(wrong("[{ name = \"a\", set = 3 }]"),
             ":2:34: scenarios.0.set: expected a section, e.g. { \"surface.contact_angle\" = \"80 "
             "deg\" }");
+  const std::string twice = wrong(
+      "[{ name = \"a\", set = { surface = { contact_angle = \"80 deg\" }, "
+      "\"surface.contact_angle\" = \"70 deg\" } }]");
+  EXPECT_TRUE(
+      twice.ends_with(": scenarios.0.set.surface.contact_angle: stands twice, as "
+                      "\"surface.contact_angle\" and as surface.contact_angle: keep one "
+                      "of them"))
+      << twice;
 }
 
 // What another kind of texture has is left out; of anything else there is a mistake.

@@ -56,5 +56,26 @@ TEST(DesignScans, AMapInAStackNamesTheKeysOfItsPart) {
       << text(scans[1]);
 }
 
+// Beside holes of a period of 5 um the patch is whole periods of those, no square of a side that a
+// key says.
+TEST(DesignScans, OfAMapBesidePeriodicPartsSayThePatchThatIsSimulated) {
+  Measured3d measured;
+  measured.file = PAPILLA_DESIGNS_DIR "/measured_surface/scan.gsf", measured.patch = 12e-6;
+  HoleArray holes;
+  holes.period = 5e-6, holes.diameter = 2e-6;
+  Stack stack;
+  stack.parts = {Texture{holes}, Texture{measured}};
+  Design design;
+  design.texture = Texture{stack};
+  const std::vector<DesignScan> scans = scans_of(design);
+  ASSERT_EQ(scans.size(), 1u);
+  const std::string said = text(scans[0]);
+  EXPECT_NE(said.find("; of its 20 x 20 um the simulated patch of 10 x 15 um, whole periods of the "
+                      "stack, is the texture (texture.parts.1.at_x, at_y)"),
+            std::string::npos)
+      << said;
+  EXPECT_EQ(said.find("a square of"), std::string::npos) << said;
+}
+
 }  // namespace
 }  // namespace papilla::tests::scans_test

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "fabricate/made.h"
 #include "fabricate/wafer_drawing.h"
+#include "tests/support/refusal.h"
 
 namespace papilla::tests::process_test {
 namespace {
@@ -134,6 +135,36 @@ TEST(Compensation, WallsThatTheEtchLeavesAreSaidToStay) {
   ASSERT_EQ(m.left().size(), 1u);
   EXPECT_EQ(m.left()[0], "walls of 70 deg, wanted 85 deg: no mask changes them");
   EXPECT_NEAR(m.width, m.wanted_width, 2e-9);  // at half the depth
+}
+
+// Upright walls round the land over the radius on either side, as the radius of a design does.
+TEST(Process, RefusesRimsThatLeaveNothingOfTheLand) {
+  HoleArray upright = holes();
+  upright.period = 5e-6, upright.wall_angle = kPi / 2;
+  const auto refused = [&](const Process& process) {
+    return refusal_of([&] { masked(Texture{upright}, process); });
+  };
+  Process process;
+  process.edge_radius = 0.999e-6;
+  EXPECT_EQ(refused(process), "");
+  process.edge_radius = 1.001e-6;
+  EXPECT_EQ(refused(process),
+            "process.edge_radius: rims of 1001 nm leave nothing of the land of 2 um between two "
+            "edges; less than 1000 nm");
+  PillarArray pillars;
+  pillars.period = 9e-6, pillars.diameter = 2e-6, pillars.wall_angle = kPi / 2;
+  EXPECT_THROW(masked(Texture{pillars}, process), InputError);
+  process.edge_radius = 0.999e-6;
+  masked(Texture{pillars}, process);
+  // The design's own, of which an undercut that no mask undoes takes 100 nm of the land a side.
+  upright.edge_radius = 0.95e-6;
+  process = {};
+  process.undercut = 0.25;
+  EXPECT_EQ(refused(process), "");
+  process.compensate = false;
+  EXPECT_EQ(refused(process),
+            "edge_radius: rims of 950 nm leave nothing of the land of 1.8 um between two edges; "
+            "less than 900 nm");
 }
 
 TEST(Compensation, RefusesFeaturesThatNoMaskMakes) {

@@ -1,6 +1,7 @@
 // Test wafers: what stands where, what is drawn, what is to be measured.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -12,6 +13,8 @@
 #include "base/files.h"
 #include "base/text.h"
 #include "fabricate/wafer_files.h"
+#include "fabricate/wafer_marks.h"
+#include "geometry/io/glyphs.h"
 #include "tests/fabricate/wafer_list.h"
 #include "tests/support/refusal.h"
 
@@ -143,6 +146,48 @@ TEST(Wafer, FieldsOfARoundOneLieWithinItsEdge) {
     EXPECT_LE(std::hypot(std::abs(f.x) + 6e-3, std::abs(f.y) + 6e-3), 58.5e-3) << f.id;
 }
 
+// Pads of 1 mm, labels as wide as they may be: "A1 FLAT" is the widest.
+TEST(Wafer, LabelsOfSmallPadsEndBeforeTheSizesBetweenThem) {
+  const std::string small = "[wafer]\npad_width = \"1 mm\"\npad_height = \"1 mm\"\nlabel = ";
+  const Wafer wafer(small + "\"333 um\"\n");
+  std::map<std::string, const LayoutCell*> cells;
+  for (const LayoutCell& cell : wafer.drawing.layout.cells) cells[cell.name] = &cell;
+  std::int32_t left = 0, right = 0;
+  for (const LayoutPolygon& p : cells.at("SIZES")->polygons) {
+    for (const std::int32_t x : p.outline.x) left = std::min(left, x), right = std::max(right, x);
+  }
+  EXPECT_EQ(left, -kSizesReach);
+  EXPECT_EQ(right, kSizesReach);
+  // They stand at the crossing of streets half a pitch from a field; a label ends as far before its
+  // own, the letters five squares wide.
+  const std::vector<LayoutReference>& on_top = cells.at("WAFER")->references;
+  const auto sizes = std::find_if(on_top.begin(), on_top.end(),
+                                  [](const LayoutReference& r) { return r.cell == "SIZES"; });
+  ASSERT_NE(sizes, on_top.end());
+  constexpr std::int32_t kCrossing = 2000000;  // [nm]
+  std::int32_t end = -kCrossing;
+  bool beside = false;
+  for (const LayoutReference& field : on_top) {
+    if (!field.cell.starts_with("FIELD_")) continue;
+    beside = beside || field.x + kCrossing == sizes->x;
+    for (const LayoutReference& letter : cells.at(field.cell)->references) {
+      if (letter.cell.starts_with("GLYPH_"))
+        end = std::max(end, letter.x + kGlyphColumns * 333000 / kGlyphRows);
+    }
+  }
+  EXPECT_TRUE(beside);
+  EXPECT_LE(end, kCrossing + left);
+  EXPECT_GT(end, kCrossing + left - 60000);  // but for the blank behind a letter
+  const auto refused = [&](const char* label) {
+    return refusal_of([&] { Wafer(small + "\"" + label + "\"\n"); });
+  };
+  EXPECT_NE(refused("334 um").find("FLAT\" is 2004 um wide, more than the 1999 um below its pad "
+                                   "that leave room for the marks"),
+            std::string::npos)
+      << refused("334 um");
+  EXPECT_NE(refused("410 um"), "");
+}
+
 TEST(Wafer, HasAMaskForEachDepthOfWhichAllPolygonsAreDeep) {
   const Wafer wafer("");
   ASSERT_EQ(wafer.drawing.levels.size(), 2u);
@@ -218,6 +263,95 @@ TEST(Wafer, TheManifestHasALineForEachFieldAndCondition) {
     EXPECT_TRUE(row["humidity_percent"] == "15" || row["humidity_percent"] == "55");
     EXPECT_EQ(row["voltage_V"] == "0", row["frequency_Hz"] == "0");
   }
+}
+
+// A plan of one design of this, under these conditions.
+WaferPlan plan_of(const Workplace& place, const std::string& design,
+                  const std::string& conditions) {
+  place.write("h1.toml", array_design("hole_array", "depth = \"350 nm\"\n") + design);
+  place.write("list.toml", "schema_version = 1\n[wafer]\nrepeats = 1\n[conditions]\n" + conditions +
+                               "[[design]]\nname = \"H1\"\nfile = \"h1.toml\"\n");
+  return plan_wafer((place.path() / "list.toml").string());
+}
+
+// Of a coefficient the friction is that times the load, whatever finger the design has.
+TEST(Wafer, ExpectsOfAPinWhatItsOwnLoadMakes) {
+  const std::string pin =
+      "[counterface]\ntype = \"pin\"\nname = \"tip\"\nload = \"1 N\"\nmodulus = \"3 GPa\"\n"
+      "radius = \"5 mm\"\ncoefficient = 0.2\nconducting = false\n";
+  const Workplace place;
+  const WaferPlan own = plan_of(place, pin, "humidity = [\"50 %\"]\n");
+  const std::vector<WaferCondition> at =
+      conditions_of(own.list.conditions, own.treatments.front().design);
+  ASSERT_EQ(at.size(), 1u);
+  EXPECT_EQ(at[0].load, 1);
+  EXPECT_FALSE(at[0].state);
+  const WaferPlan plan = plan_of(
+      place, pin, "load = [\"0.2 N\", \"2 N\"]\nvoltage = [\"0 V\"]\nhumidity = [\"50 %\"]\n");
+  EXPECT_NO_THROW(check_conditions(plan));
+  const Expectations expected = expect(plan, false);
+  EXPECT_NEAR(expected.at(0).at(0).friction_off, 0.04, 1e-6);
+  EXPECT_NEAR(expected.at(0).at(1).friction_off, 0.4, 1e-5);
+  const std::string stated =
+      refusal_of([&] { check_conditions(plan_of(place, pin, "states = \"clean, natural\"\n")); });
+  EXPECT_NE(stated.find("\"tip\" stands in place of the finger"), std::string::npos) << stated;
+}
+
+TEST(Wafer, RefusesConditionsThatTheModelRefuses) {
+  const Workplace place;
+  const std::string driven = "load = [\"0.2 N\"]\nvoltage = [\"0 V\", \"700 V\"]\n";
+  const auto refused = [&](const std::string& design) {
+    return refusal_of([&] { check_conditions(plan_of(place, design, driven)); });
+  };
+  const std::string bare = refused("[surface]\ndielectric = []\n"),
+                    weak = refused("[drive]\nsource_compliance = \"300 V\"\n");
+  EXPECT_EQ(refused(""), "");
+  EXPECT_NE(bare.find("surface.dielectric: H1 at 0.2 N, 700 V"), std::string::npos) << bare;
+  EXPECT_NE(bare.find("a driven surface needs a dielectric"), std::string::npos) << bare;
+  EXPECT_NE(weak.find("700 V is above source_compliance, 300 V"), std::string::npos) << weak;
+  EXPECT_EQ(weak.find("at 0.2 N, 0 V"), std::string::npos) << weak;
+}
+
+// A line for each design and voltage at which a film does not hold.
+TEST(Wafer, SaysAtWhichVoltagesAFilmBreaksDown) {
+  const Workplace place;
+  const WaferPlan plan =
+      plan_of(place, "", "voltage = [\"0 V\", \"700 V\"]\nhumidity = [\"15 %\", \"75 %\"]\n");
+  Expected sound, broken, worse;
+  sound.oxide_margin = kInfinity, broken.oxide_margin = 0.98, worse.oxide_margin = 0.95;
+  EXPECT_EQ(breakdown_lines(plan, {{sound, sound, broken, worse}, {sound, sound, sound, sound}}),
+            (std::vector<std::string>{
+                "H1 at 700 V: the dielectric breaks down: the field in a layer is 1.05 times its "
+                "strength, at most 665 V hold; no modulation is expected"}));
+}
+
+TEST(Wafer, CountsTheDesignsOfAListAndOfAStudyTogether) {
+  const Workplace place;
+  const std::string holes =
+      array_design("hole_array", "period = \"6 um\"\ndiameter = \"3 um\"\ndepth = \"350 nm\"\n");
+  place.write("h.toml", holes);
+  place.write("study.toml", holes +
+                                "[design_space]\n\"texture.depth\" = [\"200 nm\", \"500 nm\"]\n"
+                                "[objective]\nminimise = \"mean(friction)\"\n");
+  place.write("list.toml",
+              "schema_version = 1\ndesigns_of = \"study.toml\"\n[[design]]\nfile = \"h.toml\"\n"
+              "[[design]]\nname = \"D03\"\nfile = \"h.toml\"\n");
+  const WaferPlan plan = plan_wafer((place.path() / "list.toml").string());
+  std::vector<std::string> names;
+  for (const Treatment& t : plan.treatments) names.push_back(t.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"D01", "D03", "D02", "D04", "D05", "FLAT"}));
+  ASSERT_GE(plan.notes.size(), 2u);
+  EXPECT_TRUE(plan.notes[0].starts_with("D04: texture.depth = 200 nm")) << plan.notes[0];
+  EXPECT_TRUE(plan.notes[1].starts_with("D05: texture.depth = 500 nm")) << plan.notes[1];
+}
+
+TEST(WaferVerify, NamesADesignThatIsOfNoField) {
+  const Wafer wafer("");
+  const std::string folder = wafer.write();
+  std::filesystem::copy(folder + "/designs/P1.toml", folder + "/designs/P2.toml");
+  const FileVerdict last = verify_wafer(folder).files.back();
+  EXPECT_EQ(last.path, folder + "/designs/P2.toml");
+  EXPECT_EQ(last.state, FileState::Differs);
 }
 
 TEST(Wafer, IsMadeAgainFromItsRecordToTheLastByte) {

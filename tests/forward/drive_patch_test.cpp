@@ -309,6 +309,18 @@ TEST(DrivePatch, AClosedGapEndsTheSearchForAnEquilibrium) {
   EXPECT_EQ(shut.costs.contact_solves, 2);
 }
 
+// Water three hundred times as strong closes the gap whatever the drive.
+TEST(DrivePatch, SaysWhereAGapClosesWithoutTheDrive) {
+  Scene scene = driven(10);
+  scene.model.coupling = Coupling::Equilibrium;
+  scene.finger.water.surface_tension *= 300;
+  const Patch closed(scene, Estimator::Area);
+  const UndrivenPatch before = undriven_patch(closed.problem, closed.plan, closed.fidelity, {});
+  EXPECT_TRUE(before.result.status.pull_in_undriven()) << text(before.result.status);
+  EXPECT_EQ(drive_patch(closed.problem, closed.plan, closed.fidelity, before).status,
+            before.result.status);
+}
+
 // Eq. coupling.14: the load law by the first skins of a scene, on the others, beside these in
 // equilibrium themselves; and on those that it was measured on.
 TEST(LoadLaw, StandsForTheEquilibriumOfPatchesItWasNotMeasuredOn) {
@@ -360,7 +372,25 @@ TEST(LoadLaw, SolvesItsFixedPoint) {
   law.pull = 1;
   EXPECT_NEAR(law.load_on(0, 0.6).value(), 2.5, 1e-8);
   EXPECT_FALSE(law.load_on(0, 1.01));  // no equilibrium
-  EXPECT_NEAR(law.load_off(0.1), 1.1, 1e-12);
+  EXPECT_NEAR(law.load_off(0.1).value(), 1.1, 1e-12);
+}
+
+// T = T0 L^2 has no root beyond T0 = 1/4: whose it is, the water's before the drive or the pull's.
+TEST(LoadLaw, TellsAPullInOfWaterFromOneOfTheDrive) {
+  AttractionLaw law;
+  law.capillary_off = law.capillary_on = law.pull = 2;
+  const auto settled = [&](double water, double field) {
+    PatchResult patch;
+    patch.load = 1;
+    patch.capillary_off = patch.capillary_on = water;
+    patch.pull = field;
+    law.apply(patch);
+    return patch.status.trouble;
+  };
+  EXPECT_EQ(settled(0.2, 0.04), Trouble::None);
+  EXPECT_EQ(settled(0.2, 0.06), Trouble::ClosedPullIn);
+  EXPECT_EQ(settled(0.26, 0), Trouble::UndrivenPullIn);
+  EXPECT_EQ(settled(0.26, 1), Trouble::UndrivenPullIn);
 }
 
 TEST(DrivePatch, WhatAPieceCannotSolveIsItsStatus) {

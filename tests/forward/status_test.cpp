@@ -42,6 +42,10 @@ TEST(Status, NoTroubleHidesAPullIn) {
     EXPECT_EQ(status.trouble, closed ? first : Trouble::GrowingPullIn) << t;
     status.note({Trouble::Flooded, 0, ""});
     EXPECT_TRUE(status.pull_in()) << t;
+    // Nor a pull-in of the drive one that needs none.
+    status.note({Trouble::UndrivenPullIn, 0, ""});
+    status.note({Trouble::ClosedPullIn, 0, ""});
+    EXPECT_EQ(status.trouble, Trouble::UndrivenPullIn) << t;
   }
 }
 
@@ -52,7 +56,7 @@ TEST(Status, OnlyATroubleWithoutEquilibriumIsPullIn) {
     EXPECT_EQ(status.pull_in(), text(status).starts_with("pull-in")) << text(status);
     pull_in += status.pull_in();
   }
-  EXPECT_EQ(pull_in, 4);
+  EXPECT_EQ(pull_in, 5);
 }
 
 TEST(Status, NumbersAndReasonsAreSaidInTheirUnits) {
@@ -117,7 +121,7 @@ TEST(Status, PastPullInNoNumberIsKnown) {
     p.status = {static_cast<Trouble>(t), 2, ""};
     if (!p.status.pull_in()) continue;
     p.source_voltage = 200;
-    EXPECT_TRUE(p.knows_undriven()) << t;
+    EXPECT_EQ(p.knows_undriven(), !p.status.pull_in_undriven()) << t;
     EXPECT_FALSE(p.knows_driven()) << t;
     p.source_voltage = 0;
     EXPECT_FALSE(p.knows_undriven() || p.knows_driven()) << t;

@@ -29,6 +29,8 @@ TEST(AnswerWords, OfEveryTrouble) {
       {{Trouble::GrowingPullIn, 0, ""},
        "pull-in: the attraction outgrows the skin's resistance, the gap jumps shut"},
       {{Trouble::FarGapPullIn, 0, ""}, "pull-in: the gaps between patches in contact close"},
+      {{Trouble::UndrivenPullIn, 0, ""},
+       "pull-in: load and water alone close the gap, without a voltage"},
       {{Trouble::PassesUsedUp, 12, ""}, "coupling: not settled after 12 passes"},
       {{Trouble::FullContact, 1.2345, ""},
        "full contact: the area estimate is 1.23 times the patch, friction and modulation mean "

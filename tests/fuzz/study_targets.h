@@ -22,6 +22,9 @@
 namespace papilla::tests {
 
 inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
+  // What the study below names.
+  for (const std::string name : {"finger.toml", "few_members.toml"})
+    write_bytes(folder + "/" + name, read_bytes(PAPILLA_TEST_DATA "/study/" + name));
   std::vector<FuzzTarget> out;
   out.push_back(
       {"study",

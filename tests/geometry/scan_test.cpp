@@ -16,6 +16,7 @@
 #include "base/random.h"
 #include "geometry/io/files.h"
 #include "geometry/measured_map.h"
+#include "geometry/texture.h"
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
@@ -424,7 +425,7 @@ TEST(MeasuredMap, OneThatIsTooSmallIsRefusedWithItsSides) {
   };
   EXPECT_EQ(middle(9e-6), "");
   EXPECT_EQ(middle(9.1e-6),
-            file + ": 20 x 9 um is smaller than the patch of 9.1 um; lower texture.patch");
+            "texture.patch: " + file + ": 20 x 9 um is smaller than the patch of 9.1 um; lower it");
   // As skin it needs a tenth more on either side, for the seam.
   const auto skin = [&](double lx, double ly) {
     return refusal_of([&] { measured_skin(file, 0, {32, 32, lx, ly}, 1, 0); });
@@ -434,6 +435,39 @@ TEST(MeasuredMap, OneThatIsTooSmallIsRefusedWithItsSides) {
             std::string::npos);
   EXPECT_NE(skin(18e-6, 8.3e-6), "");
   EXPECT_DOUBLE_EQ(measured_skin_cutoff(file, 0), 2 * kGrid.dx());  // of the longer pixel side
+}
+
+// A stack says it by the part whose key it is, however deep the part lies.
+TEST(MeasuredMap, WhatIsWrongWithItAsAPartIsSaidByTheKeyOfThePart) {
+  const std::string file = temporary("part.gsf");
+  write_gsf(file, map_of(kGrid, waves), {});
+  Measured3d map;
+  map.file = file, map.patch = 9.1e-6;
+  const auto refused = [&](double side) {
+    Stack inner, outer;
+    inner.parts = {Texture{Flat{}}, Texture{map}};
+    outer.parts = {Texture{inner}};
+    return refusal_of([&] { generate(Texture{outer}, {32, 32, side, side}); });
+  };
+  EXPECT_EQ(refused(9.1e-6), "texture.parts.0.parts.1.patch: " + file +
+                                 ": 20 x 9 um is smaller than the patch of 9.1 um; lower it");
+  map.patch = 8e-6, map.at_x = 7e-6;
+  EXPECT_TRUE(refused(8e-6).starts_with(
+      "texture.parts.0.parts.1.at_x, at_y: the patch of 8 x 8 um round (7, 0) um reaches 1 um "))
+      << refused(8e-6);
+  map.at_x = 0;
+  EXPECT_EQ(refused(8e-6), "");
+}
+
+// One keeps the plane that the other takes away.
+TEST(MeasuredTexture, IsNotLevelledAndAsItIsAtOnce) {
+  Measured3d map;
+  map.as_is = true;
+  EXPECT_TRUE(problems(Texture{map}).empty());
+  map.level = true;
+  const TextureProblems found = problems(Texture{map});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found.front().first, "level");
 }
 
 }  // namespace

@@ -71,6 +71,19 @@ TEST(Gwy, OfSeveralChannelsOneIsNamed) {
   EXPECT_EQ(read_map(only).channel, "Height");
 }
 
+// A file that holds one map has no channel of any name.
+TEST(Channels, OfFilesWithoutChannelsAreRefused) {
+  const Heightmap h = slope_and_bumps();
+  const std::string gsf = temporary("one.gsf"), npy = temporary("one.npy");
+  write_gsf(gsf, h, {});
+  write_npy(npy, h);
+  for (const std::string& name : {gsf + "::nonsense", npy + "::3"}) {
+    const std::string why = refusal_of([&] { read_map(name, h.grid.lx); });
+    EXPECT_NE(why.find("files of its kind hold one map, and no channel"), std::string::npos)
+        << name << ": " << why;
+  }
+}
+
 // Half the last digit of a number of 32 bits, of the largest height: steps of SUR and heights of
 // BCRF are such numbers.
 constexpr double kSingle = 2.2e-6 / (1 << 24);

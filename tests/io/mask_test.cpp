@@ -216,6 +216,20 @@ TEST(Dose, IsTheInverseOfTheCurveAndCountsWhatItClips) {
   }
 }
 
+TEST(Dose, AHeadingSaysTheUnitAndTheOrder) {
+  const std::string path = temporary("headed.csv");
+  for (const char* table : {"depth_um,grey\n0,10\n0.35,255\n", "grey,depth_nm\n10,0\n255,350\n",
+                            "depth,grey\n0,10\n350,255\n"}) {
+    std::ofstream(path) << table;
+    const DoseCurve curve = read_dose_curve(path);
+    ASSERT_EQ(curve.depth.size(), 2u) << table;
+    EXPECT_NEAR(curve.depth[1], 350e-9, 1e-16) << table;
+    EXPECT_EQ(curve.grey, (std::vector<double>{10, 255})) << table;
+  }
+  std::ofstream(path) << "x,dose\n0,10\n350,255\n";
+  EXPECT_THROW(read_dose_curve(path), InputError);
+}
+
 TEST(Dose, TwoLinesAreACurve) {
   const std::string path = temporary("two.csv");
   std::ofstream(path) << "0,10\n100,60\n";

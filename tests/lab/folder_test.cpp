@@ -1,11 +1,13 @@
 // A lab as a folder: what is told is there once, whatever happens.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
 #include "calibrate/friction_table.h"
+#include "geometry/io/files.h"
 #include "report/lab_folder.h"
 #include "report/lab_trace.h"
 #include "report/lab_words.h"
@@ -482,6 +484,74 @@ TEST_F(LabFolder, KeepsItsRecordsOfADesignThatIsNoLongerAChoice) {
   EXPECT_NE(told.markdown.find("1 reading told"), std::string::npos) << words(told);
 }
 
+// Another order of lab.toml, and one design less.
+TEST_F(LabFolder, KeepsReadingsWithTheirDesignWhereverItStandsInTheList) {
+  const std::string rows = std::string(kHead) +
+                           "deep,1,0.2,35,200,1,0.06,0.09\n"
+                           "shallow,1,0.2,75,200,1,0.08,0.12\n";
+  tell({file("a.csv", rows)});
+  const auto told = [&] {
+    const Lab lab(folder_, 1);
+    std::vector<std::string> out;
+    for (const PlannedExperiment& p : lab.planned())
+      out.push_back(p.id + " " + lab.designs()[p.experiment.design].name);
+    for (const FrictionReading& r : lab.readings())
+      out.push_back(fmt::format("{} {}", lab.designs()[r.experiment.design].name, r.off));
+    return out;
+  };
+  const std::vector<std::string> before = told();
+  EXPECT_EQ(before.back(), "shallow 0.08");
+  LabFile lab_file = read_lab_file(folder_);
+  std::swap(lab_file.designs[0], lab_file.designs[1]);
+  write_text(folder_ + "/lab.toml", lab_file_text(lab_file));
+  EXPECT_EQ(Lab(folder_, 1).designs().front().name, "shallow");
+  EXPECT_EQ(told(), before);
+  const TellReport grown = tell({file("b.csv", rows + "deep,2,0.2,35,200,1,0.061,0.091\n")});
+  EXPECT_NE(grown.markdown.find("b.csv: 1 reading told\n"), std::string::npos) << words(grown);
+  EXPECT_NE(grown.markdown.find("2 readings told already"), std::string::npos) << grown.markdown;
+  lab_file.designs.erase(lab_file.designs.begin());
+  write_text(folder_ + "/lab.toml", lab_file_text(lab_file));
+  EXPECT_NE(refusal_of([&] {
+              const Lab lab(folder_, 1);
+            }).find("\"shallow\" was planned or measured and is not in the list any more"),
+            std::string::npos);
+}
+
+TEST_F(LabFolder, SaysHowMuchIsLeftToAskTheModel) {
+  std::vector<std::string> noted;
+  Lab lab(folder_, 1, [&](const std::string& text) { noted.push_back(text); });
+  TellOptions options;
+  options.date = "2026-03-02";
+  lab.tell(file("a.csv", std::string(kHead) +
+                             "deep,1,0.2,35,200,1,0.06,0.09\n"  // as planned: it is known
+                             "deep,1,0.2,45,200,1,0.06,0.09\n"
+                             "shallow,1,0.2,55,200,1,0.07,0.1\n"),
+           options, {});
+  EXPECT_EQ(noted, (std::vector<std::string>{
+                       "1 of 2: deep, 45 % RH, 0.2 N, 200 V, clean, at 6 members",
+                       "2 of 2: shallow, 55 % RH, 0.2 N, 200 V, clean, at 6 members"}));
+}
+
+TEST_F(LabFolder, KeepsNoAnswerOfAMapThatWasWrittenAnew) {
+  const std::string map = (own_.path() / "map.npy").string();
+  const Grid grid{32, 32, 20e-6, 20e-6};
+  Heightmap dots{grid, std::vector<double>(grid.size(), 0)};
+  for (std::size_t i = 0; i < grid.size(); i += 7) dots.z[i] = 100e-9;
+  write_npy(map, dots);
+  Measured3d measured;
+  measured.file = map, measured.width = 20e-6, measured.patch = 12e-6;
+  LabDesign scan = Lab(folder_, 1).designs().front();
+  scan.design.texture = Texture{measured};
+  Belief belief = Lab(folder_, 1).belief();
+  belief.members.resize(1);
+  MemberModel model(belief, own_.path().string(), 1);
+  const Conditions at{0.2, 0.35};
+  model.friction(scan, at);
+  EXPECT_TRUE(model.kept_friction(scan, at));
+  fs::last_write_time(map, fs::last_write_time(map) + std::chrono::seconds(1));
+  EXPECT_FALSE(model.kept_friction(scan, at));
+}
+
 // Of a worth that is minimised: 53.3 mN at every member, not -0.0533.
 TEST_F(LabFolder, SaysAWorthThatIsMinimisedInItsUnit) {
   RunWorth run{"mean(friction)",
@@ -528,6 +598,15 @@ TEST_F(LabFolder, PlansNoVoltageUnderWhichAMemberHasNoFriction) {
       << told.markdown << words(told);
   ASSERT_EQ(readings(), 1u);
   EXPECT_EQ(Lab(folder_, 1).readings().front().on, 0.09);
+}
+
+TEST_F(LabFolder, GoesOnInNoOtherFolder) {
+  NextRun run;
+  run.source.paths = {folder_};
+  run.folder = (own_.path() / "other").string();
+  EXPECT_NE(refusal_of([&] { next_in_lab(run); }).find("is a lab, which goes on in its own folder"),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(run.folder));
 }
 
 TEST_F(LabFolder, SaysThatNothingFitsIntoItsTime) {

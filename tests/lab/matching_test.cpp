@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <tuple>
+
 #include "tests/support/refusal.h"
 
 namespace papilla::tests::matching_test {
@@ -26,6 +29,16 @@ class Tell : public testing::Test {
   FrictionReading record(Trace trace, TraceReading reading, const std::string& name) const {
     const MatchContext to{lab_, designs_, planned_};
     return match_trace(trace, reading, to, {}, name).readings.front();
+  }
+  // Of a record with such a head, "E01.csv"; "" where it is taken.
+  std::string refused_head(const std::map<std::string, std::string>& head) const {
+    TraceReading reading;
+    reading.off = 0.1;
+    reading.off_sd = 0.001;
+    reading.load = 0.2;
+    Trace trace;
+    trace.said = head;
+    return keyed_refusal_of([&] { record(trace, reading, "E01.csv"); });
   }
   std::string refused(const std::string& text) const {
     return keyed_refusal_of([&] { told(text); });
@@ -91,6 +104,75 @@ TEST_F(Tell, ReadsConditionsThatARecordHasNoColumnOfFromItsHead) {
   trace.said["frequency"] = "1 kHz";  // of the samples
   EXPECT_EQ(record(trace, reading, "a.csv").experiment.at,
             (Conditions{0.2, 0.15, 200, 5000, FingerState::Natural}));
+}
+
+TEST_F(Tell, RefusesConditionsInTheHeadOfARecordThatItCannotRead) {
+  const std::map<std::string, std::string> good{{"design", "deep"}};
+  EXPECT_EQ(refused_head(good), "");
+  for (const auto& [key, value, expected] :
+       {std::tuple("humidity", "75", "0 to 100 %, as \"75 %\""),
+        std::tuple("humidity", "750 %", "0 to 100 %, as \"75 %\""),
+        std::tuple("state", "Wet", "clean, natural, wet"),
+        std::tuple("carrier", "50000", "a frequency, as \"5 kHz\""),
+        std::tuple("carrier", "5 V", "a frequency, as \"5 kHz\""),
+        std::tuple("repeat", "two", "a whole number from 1 on"),
+        std::tuple("repeat", "1.9", "a whole number from 1 on")}) {
+    std::map<std::string, std::string> head = good;
+    head[key] = value;
+    EXPECT_EQ(refused_head(head), std::string(key) + ": \"" + value +
+                                      "\" in the head of the record: expected " + expected + "\n");
+  }
+  // All at once; a line that is left empty says nothing.
+  EXPECT_EQ(refused_head({{"design", "deep"}, {"humidity", "75"}, {"state", "Wet"}}).substr(0, 14),
+            "humidity: \"75\"");
+  EXPECT_NE(refused_head({{"humidity", "75"}, {"state", "Wet"}}).find("\nstate: \"Wet\""),
+            std::string::npos);
+  EXPECT_EQ(refused_head({{"design", "deep"}, {"humidity", ""}}), "");
+}
+
+TEST_F(Tell, RefusesADesignThatIsNotThatOfItsExperimentOrField) {
+  designs_.push_back({"flat", Design(), true});
+  designs_.push_back({"a,b", Design(), true});
+  lab_.fields = {field(0.2, 0.35)};
+  PlannedExperiment planned;
+  planned.id = "E01";
+  planned.experiment = {0, {0.2, 0.35}};
+  planned_ = {planned};
+  EXPECT_EQ(told("experiment,design,F_off_N\nE01,deep,0.1\n").experiment.design, 0u);
+  EXPECT_EQ(refused("experiment,design,F_off_N\nE01,flat,0.1\n"),
+            "design: E01 is of deep, not flat\n");
+  EXPECT_EQ(refused("field,design,F_off_N\nA3,flat,0.1\n"), "design: A3 is of deep, not flat\n");
+  EXPECT_NE(refused("experiment,design,F_off_N\nE01,nonsense,0.1\n").find("no design \"nonsense\""),
+            std::string::npos);
+  EXPECT_EQ(refused_head({{"design", "flat"}}), "design: E01 is of deep, not flat\n");
+  // A manifest names files, and a lab may know such a design by the name that a run gave it.
+  EXPECT_EQ(told("field,design,F_off_N\nA3,designs/front_01.toml,0.1\n").experiment.design, 0u);
+  // A plan has no comma in a cell.
+  planned_.front().experiment.design = 2;
+  EXPECT_EQ(told("experiment,design,F_off_N\nE01,a;b,0.1\n").experiment.design, 2u);
+}
+
+TEST_F(Tell, RefusesOptionsThatContradictTheExperiment) {
+  designs_.push_back({"flat", Design(), true});
+  PlannedExperiment planned;
+  planned.id = "E01";
+  planned.experiment = {0, {0.2, 0.35}};
+  planned_ = {planned};
+  const auto refused_with = [&](const TellOptions& options) {
+    const MatchContext to{lab_, designs_, planned_};
+    const MeasuredTable table = read_measured_table("experiment,F_off_N\nE01,0.1\n", "a.csv");
+    return keyed_refusal_of([&] { match_table(table, to, options, "a.csv"); });
+  };
+  TellOptions options;
+  options.design = "deep";
+  EXPECT_EQ(refused_with(options), "");
+  options.design = "flat";
+  EXPECT_EQ(refused_with(options), "design: E01 is of deep, not flat\n");
+  options.design = "";
+  options.field = "Z9";
+  EXPECT_EQ(refused_with(options), "field: E01 stands in no field, not in Z9\n");
+  // In a table the column of a plan without fields is the user's.
+  EXPECT_EQ(told("experiment,field,F_off_N\nE01,left,0.1\n").id, "E01");
 }
 
 TEST_F(Tell, TakesTheFingerToBeInTheOnlyStateOfTheLab) {

@@ -104,6 +104,30 @@ TEST_F(LabSources, AreRefusedWithASecondRun) {
             std::string::npos);
 }
 
+TEST_F(LabSources, AreRefusedWhereAPinTouches) {
+  write_design(path("pin.toml"), read_design(find_design("clutch/brass.toml")));
+  EXPECT_NE(refusal_of([&] {
+              opened({"deep.toml", "pin.toml"});
+            }).find("pin: a pin is in the place of the finger"),
+            std::string::npos);
+}
+
+TEST_F(LabSources, SayTheConditionsOfFieldsInTheirManifestAlone) {
+  const auto refused = [&](std::string LabSource::*option) {
+    LabSource source;
+    source.paths = {path("wafer")};
+    source.belief = path("belief.toml");
+    source.*option = "1";
+    return refusal_of([&] { lab_opening(source); });
+  };
+  for (const auto& [name, option] :
+       {std::pair("--load", &LabSource::load), std::pair("--humidity", &LabSource::humidity),
+        std::pair("--voltage", &LabSource::voltage),
+        std::pair("--frequency", &LabSource::frequency), std::pair("--state", &LabSource::states)})
+    EXPECT_TRUE(refused(option).starts_with(std::string(name) + ": the manifest of a wafer says"))
+        << refused(option);
+}
+
 // "front/01" of the run and front_01.toml would be one file of the lab.
 TEST_F(LabSources, KeepEachDesignInAFileOfItsOwn) {
   copy("third.toml", "front_01.toml");

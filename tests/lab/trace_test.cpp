@@ -254,6 +254,12 @@ TEST(Record, IsRefusedForWrongUnitsAndDamage) {
             std::string::npos);
 }
 
+TEST(Record, SaysItsHeadInLettersOfAnySize) {
+  const Trace trace = read_trace(Tribometer().record("# Humidity: 75 %\n# STATE = wet\n"), "r.csv");
+  EXPECT_EQ(trace.said,
+            (std::map<std::string, std::string>{{"humidity", "75 %"}, {"state", "wet"}}));
+}
+
 TEST(Record, TakesMillinewtonsAndSemicolons) {
   Tribometer t;
   t.strokes = 6;

@@ -62,6 +62,16 @@ TEST(Conditions, TheStateOfAllIsTheOneThatTheyShare) {
             "which of them, or in which ones, all are judged");
 }
 
+// A pin has none, whatever the finger that is not there is in.
+TEST(Conditions, TheStateOfAllIsThatOfTheFingersAmongThem) {
+  Design pin, natural;
+  pin.counterface.type = CounterfaceType::Pin;
+  natural.finger.state = FingerState::Natural;
+  EXPECT_EQ(common_state({{pin}, {natural}}), FingerState::Natural);
+  pin.finger.state = FingerState::Wet;
+  EXPECT_EQ(common_state({{pin}, {pin}}), FingerState::Clean);
+}
+
 TEST(Conditions, LongValuesAreCutAndShortOnesAreNot) {
   const std::string longest(48, 'x');
   EXPECT_EQ((ConditionDifference{"k", "a", longest, longest + "y", "b"}.text()),
@@ -95,6 +105,8 @@ TEST(Criteria, AreReadBackAsTheyAreWritten) {
   EXPECT_EQ(c[3].text(), "worst(friction):low");
   EXPECT_THROW(parse_criteria("voltage_for(modulation=0.2):low"), InputError);
   EXPECT_THROW(parse_criteria(",friction:low"), InputError);
+  EXPECT_EQ(refusal_of([] { parse_criteria("friction:low,adhesion:low,mean(friction):high"); }),
+            "\"friction:low,adhesion:low,mean(friction):high\": mean(friction) is named twice");
   RankOptions options;
   options.criteria = {c[0]};
   EXPECT_TRUE(options.scored());

@@ -15,6 +15,7 @@
 #include "numerics/statistics.h"
 #include "report/ranking.h"
 #include "tests/rank/samples.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests::rank_test {
@@ -164,26 +165,114 @@ TEST(Rank, PressesMapsAtSeveralPlacesAndSaysWhatIsLeftOut) {
   EXPECT_EQ(said({{scan}, {scan}}, "scans:"), 0);
 }
 
+// As a part of a stack it has other keys, and no places are tried by themselves.
+TEST(Rank, NamesTheKeysOfAMapThatIsAPartOfAStack) {
+  const std::string file = temporary("slanted_part.npy");
+  Heightmap heights{{160, 160, 16e-6, 16e-6}, {}};
+  for (int i = 0; i < 160 * 160; ++i)
+    heights.z.push_back(50e-9 * std::cos(0.3 * (i % 160)) + 1e-9 * (i / 160));
+  write_npy(file, heights);
+  Measured3d map;
+  map.file = file, map.width = 16e-6, map.patch = 4e-6;
+  Stack stack;
+  stack.parts = {Texture{Flat{}}, Texture{map}};
+  Design scan = small_sample("flat");
+  scan.texture = Texture{stack};
+  RankOptions options = by("friction:low");
+  options.max_skins = 2, options.batch = 2;
+  const auto notes = [&](const std::vector<Regions>& candidates) {
+    std::string out;
+    for (const std::string& note : ranking_of(candidates, options).notes) out += note + "\n";
+    return out;
+  };
+  const std::string one = notes({{scan}, {scan}}), two = notes({{scan, scan}, {scan, scan}});
+  EXPECT_NE(one.find("join designs with another texture.parts.1.at_x and at_y by +"),
+            std::string::npos)
+      << one;
+  EXPECT_NE(two.find("press 2 places of a map in turn (texture.parts.1.patch wide)"),
+            std::string::npos)
+      << two;
+  for (const std::string& said : {one, two}) {
+    EXPECT_EQ(said.find("texture.patch"), std::string::npos) << said;
+    EXPECT_EQ(said.find("texture.at_x"), std::string::npos) << said;
+  }
+}
+
+// A steel ball in place of the finger.
+Design under_a_ball(Design d) {
+  d.drive.amplitude = 0;
+  Pin& pin = d.counterface.pin;
+  d.counterface.type = CounterfaceType::Pin;
+  pin.name = "steel ball";
+  pin.load = 0.1;
+  pin.modulus = 200e9;
+  pin.radius = 1e-3;
+  pin.coefficient = 0.2;
+  pin.roughness.rms = 20e-9;
+  return d;
+}
+
 // A pin brings the law of its own pair and has no states.
 TEST(Rank, OfAPinSaysItsNameAndTakesOneState) {
-  std::vector<Design> designs{sample("flat"), sample("a3h600")};
-  for (Design& d : designs) {
-    d.drive.amplitude = 0;
-    Pin& pin = d.counterface.pin;
-    d.counterface.type = CounterfaceType::Pin;
-    pin.name = "steel ball";
-    pin.load = 0.1;
-    pin.modulus = 200e9;
-    pin.radius = 1e-3;
-    pin.coefficient = 0.2;
-    pin.roughness.rms = 20e-9;
+  const Design flat = under_a_ball(sample("flat")), holes = under_a_ball(sample("a3h600"));
+  RankOptions options = by("friction:low");
+  const Ranking r = ranking_of({flat, holes}, options);
+  EXPECT_EQ(r.states.front().touching, "steel ball");
+  ASSERT_EQ(r.notes.size(), 1u);
+  EXPECT_NE(r.notes[0].find("nothing is fitted of \"steel ball\""), std::string::npos)
+      << r.notes[0];
+  EXPECT_EQ(r.notes[0].find("reference.toml"), std::string::npos) << r.notes[0];
+  options.states = {FingerState::Clean, FingerState::Natural};
+  EXPECT_THROW(ranking_of(std::vector{flat, holes}, options), InputError);
+  // Whichever candidate it is.
+  options.any_conditions = true;
+  EXPECT_NE(refusal_of([&] {
+              ranking_of(std::vector{sample("flat"), flat}, options);
+            }).find("\"steel ball\" stands in place of the finger and has no states"),
+            std::string::npos);
+}
+
+// Skin that is not clean shears at three quarters; steel does not.
+TEST(Rank, TheStateOfAFingerThatIsNotThereMovesNoPin) {
+  std::vector<Design> designs;
+  for (const char* name : {"flat", "a4h600"}) {
+    designs.push_back(under_a_ball(small_sample(name)));
+    designs.back().counterface.pin.coefficient = 0;
+    designs.back().counterface.pin.shear_strength = 20e6;
   }
   RankOptions options = by("friction:low");
-  const Ranking r = ranking_of(designs, options);
-  EXPECT_EQ(r.states.front().touching, "steel ball");
-  EXPECT_TRUE(r.notes.empty());
-  options.states = {FingerState::Clean, FingerState::Natural};
-  EXPECT_THROW(ranking_of(designs, options), InputError);
+  options.batch = options.max_skins = 2;
+  const Ranking clean = ranking_of(designs, options);
+  options.states = {FingerState::Natural};
+  const Ranking natural = ranking_of(designs, options);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_EQ(natural.states[0].candidates[i].metrics[0].value,
+              clean.states[0].candidates[i].metrics[0].value);
+}
+
+// What is fitted of the finger is not known of what stands in its place.
+TEST(Rank, AsksNothingOfTheBeliefOfAFingerThatIsNotThere) {
+  std::vector<Design> designs(2, under_a_ball(small_sample("flat")));
+  designs[1].surface.contact_angle += 0.01;
+  for (Design& d : designs) d.finger.belief = "nowhere/belief.toml";
+  EXPECT_EQ(parameters_unknown({{designs[0]}, {designs[1]}}),
+            "nothing is fitted of \"steel ball\"");
+  EXPECT_NE(parameters_unknown({{small_sample("flat")}, {designs[1]}}), "");
+  RankOptions options = by("friction:low");
+  options.batch = options.max_skins = 2;
+  EXPECT_EQ(ranking_of(designs, options).states[0].candidates.size(), 2u);
+  options.parameters = true;
+  EXPECT_EQ(refusal_of([&] { ranking_of(designs, options); }),
+            "nothing is fitted of \"steel ball\"");
+}
+
+TEST(Rank, RefusesAStateThatIsNamedTwice) {
+  RankOptions options = by("friction:low");
+  options.states = {FingerState::Natural, FingerState::Clean, FingerState::Natural};
+  EXPECT_EQ(refusal_of([&] {
+              ranking_of(std::vector{small_sample("flat"), small_sample("a3h600")}, options);
+            }),
+            "the finger's state \"natural\" is named twice");
 }
 
 TEST(Rank, ANaturalFingerHasMoreWaterAndLessShear) {

@@ -216,8 +216,8 @@ TEST(FieldPictures, OfAnEarlierRunAreRemovedAndNothingElse) {
   namespace fs = std::filesystem;
   const std::string folder = temporary("fields");
   fs::create_directories(folder);
-  const std::vector<std::string> old{"gap_15.png", "pressure_off_35.npy", "pressure_on_5.png",
-                                     "pull_100.npy", "water_15.png"},
+  const std::vector<std::string> old{"gap_15.png",   "pressure_off_35.npy", "pressure_on_5.png",
+                                     "pull_100.npy", "water_15.png",        "gap_50.3.png"},
       others{"gap_15.csv", "gap_.png", "gap.png", "mine_15.png", "gap_1a.png", "pressure_15.png"};
   for (const auto* names : {&old, &others}) {
     for (const std::string& name : *names) write_bytes(folder + "/" + name, "x");

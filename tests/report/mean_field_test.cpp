@@ -139,5 +139,26 @@ TEST(MeanFieldReport, SaysWhatHasNoNumberAndWhatIsHeld) {
   EXPECT_TRUE(text.ends_with("0.25 s\n"));
 }
 
+// A pull that presses beyond the hardness, of the point and in a table.
+TEST(MeanFieldReport, SaysWhereAllOfTheSkinYields) {
+  MeanFieldCase c;
+  MeanFieldResult r;
+  r.point = point();
+  r.voltage = {point(), point()};
+  EXPECT_FALSE(nlohmann::json::parse(mean_field_json(c, r, 0))["point"].contains("yielded"));
+  c.skin.hardness = 11e3;
+  EXPECT_EQ(mean_field_text(c, r, 0).find("yields"), std::string::npos);
+  r.voltage[1].yielded = r.point.yielded = true;
+  const std::string text = mean_field_text(c, r, 0);
+  EXPECT_NE(text.find("\nyields everywhere: the pressure is beyond the hardness, 11 kPa, "),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("1.2\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("1.2  yields everywhere\n"), std::string::npos) << text;
+  const auto json = nlohmann::json::parse(mean_field_json(c, r, 0));
+  EXPECT_EQ(json["point"]["yielded"], true);
+  EXPECT_EQ(json["over_voltage"][0]["yielded"], false);
+}
+
 }  // namespace
 }  // namespace papilla::tests::mean_field_test

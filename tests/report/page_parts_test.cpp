@@ -181,6 +181,17 @@ TEST(FieldPictures, AreTheFieldsOfOnePatchAtEachHumidity) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 10);
 }
 
+// One set for each humidity, also of those that round to one number.
+TEST(FieldPictures, OfNearHumiditiesHaveNamesOfTheirOwn) {
+  Design design = read_design(kHoles);
+  design.environment.relative_humidity = {0.5, 0.503, 0.75};
+  design.environment.weights.clear();
+  const std::string folder = fresh("near");
+  write_field_pictures(folder, design, one_patch());
+  for (const char* name : {"gap_50.0", "gap_50.3", "gap_75.0"})
+    EXPECT_TRUE(fs::exists(folder + "/" + name + ".png")) << name;
+}
+
 // The data of a page, and what stands in it without scripts.
 struct ReadPage {
   std::string text, plain_part;
@@ -321,6 +332,31 @@ TEST(Pages, OfARankingHaveEachDesignUnderItsName) {
   write_bytes(folder + "/ranking.json", R"({"candidates": [{"index": 1, "name": "two"}]})");
   EXPECT_TRUE(
       refusal_of([&] { report_page(folder); }).starts_with(folder + ": ranking.json is damaged: "));
+}
+
+// The scan is 20 um wide, its patch 12 um.
+TEST(Pages, OfARankingSayWhichPartOfAMapTheyShow) {
+  const std::string folder = fresh("a_ranking_of_maps");
+  fs::create_directories(folder + "/designs");
+  const auto design = [&](const char* name, const std::string& place) {
+    write_bytes(folder + "/designs/" + name,
+                "schema_version = 1\n[texture]\ntype = \"measured\"\nfile = "
+                "\"" PAPILLA_DESIGNS_DIR "/measured_surface/scan.gsf\"\n" +
+                    place);
+  };
+  design("01.toml", "");
+  design("02.toml", "at_x = \"2 um\"\nat_y = \"-1 um\"\n");
+  design("03.toml", "patch = \"20 um\"\n");
+  write_bytes(folder + "/ranking.json",
+              R"json({"candidates": [{"index": 0, "name": "a"}, {"index": 1, "name": "b"},
+                      {"index": 2, "name": "c"}], "criteria": [], "states": [1]})json");
+  write_bytes(folder + "/ranking.txt", "a\n");
+  const ReadPage page(report_page(folder));
+  const Json& shown = page.data["candidates"];
+  EXPECT_EQ(shown[0]["shown"], "12 x 12 um in the middle of its map of 20 x 20 um");
+  EXPECT_EQ(shown[1]["shown"],
+            "12 x 12 um round (2, -1) um from the middle of its map of 20 x 20 um");
+  EXPECT_FALSE(shown[2].contains("shown"));
 }
 
 Json list_of(const Json& one) {

@@ -11,14 +11,31 @@
 namespace papilla::tests::report_slow_test {
 namespace {
 
+constexpr const char* kStudy = R"(schema_version = 1
+base = "electroadhesive_glass/study.toml"
+[environment]
+relative_humidity = ["15 %", "55 %"]
+[accuracy]
+level = "draft"
+grid = 32
+[population]
+fingers = ["reference.toml", "moist.toml"]
+[search]
+evaluations = 6
+seed = 2
+)";
+
 // A run that all tests of the suite read.
 const Workplace& finished_run() {
   static const Workplace place;
-  static const Outcome run =
-      place.run("-q optimize " PAPILLA_SOURCE_DIR
-                "/designs/electroadhesive_glass/study.toml --set 'search.evaluations=4' --set "
-                "'accuracy.level=draft' --set 'environment.relative_humidity=[\"35 %\", \"75 %\"]' "
-                "--out run");
+  static const Outcome run = [] {
+    for (const std::string finger : {"reference", "moist"})
+      place.write(finger + ".toml", "schema_version = 1\nbase = \"fingers/" + finger +
+                                        ".toml\"\nbelief = \"few_members.toml\"\n");
+    place.write("few_members.toml", file_text(PAPILLA_TEST_DATA "/study/few_members.toml"));
+    place.write("study.toml", kStudy);
+    return place.run("-q optimize study.toml --out run");
+  }();
   EXPECT_EQ(run.status, 0) << run.err;
   return place;
 }

@@ -183,7 +183,7 @@ TEST(UndrivenRun, AnAdviceNeedsAGainBeyondItsError) {
       as_read(recommendation(run.files())),
       "Leave it flat and change the finish (contact angle of water 70 deg (50 deg in the study "
       "file)): that "
-      "gains mean(friction) -2.5 ± 2 mN (lower is better); no texture of this search adds "
+      "lowers mean(friction) by 2.5 ± 2 mN (better); no texture of this search adds "
       "more than the error of the "
       "difference.");
   run.result.flat_before.reset();
@@ -208,14 +208,13 @@ TEST(UndrivenRun, AFlatAdviceNamesWhatOtherTexturesGain) {
   run.result.flat = score(0.0815, 0.25, 0, 0);
   run.result.flat_before = score(0.0845, 0.255, 0, 0);
   const std::string gained =
-      " What other textures of the front change: design 02 gains mean(friction) -31.5 ± 2 mN "
-      "(lower is better) and "
-      "costs variation(friction) +0.050 ± 0.012 (lower is better).";
+      " What other textures of the front change: design 02 lowers mean(friction) by 31.5 ± 2 "
+      "mN (better) and raises variation(friction) by 0.050 ± 0.012 (worse).";
   EXPECT_EQ(
       as_read(recommendation(run.files())),
       "Leave it flat and change the finish (contact angle of water 70 deg (50 deg in the study "
       "file)): that "
-      "gains mean(friction) -3 ± 2 mN (lower is better); the texture of design 01, the best "
+      "lowers mean(friction) by 3 ± 2 mN (better); the texture of design 01, the best "
       "design, adds no "
       "more than the error of the difference." +
           gained);

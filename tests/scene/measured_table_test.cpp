@@ -119,6 +119,19 @@ TEST(MeasuredTable, RefusesEveryMistakeAtOnceWithItsLine) {
   EXPECT_TRUE(says(refused("design,F_off_N\n"), "no rows below the header"));
 }
 
+TEST(MeasuredTable, RefusesTwoColumnsOfTheHumidity) {
+  EXPECT_TRUE(says(refused("design,humidity_percent,relative_humidity,load_N,F_off_N\n"
+                           "flat,35,0.75,0.2,0.1\n"),
+                   "relative_humidity: a second column of the humidity"));
+}
+
+TEST(MeasuredTable, RefusesARepeatThatIsNoWholeNumber) {
+  const std::string head = "design,repeat,load_N,F_off_N\n";
+  EXPECT_TRUE(says(refused(head + "flat,1.9,0.2,0.1\n"),
+                   "table.csv:2:2: repeat: expected a whole number, got \"1.9\""));
+  EXPECT_EQ(table(head + "flat,2,0.2,0.1\n").rows.front().repeat, 2);
+}
+
 TEST(MeasuredTable, AsksWhetherAFileWithoutItsLastLineEndIsWhole) {
   const MeasuredTable t = table("design,load_N,F_off_N\nflat,0.2,0.1\nflat,0.2,0.1");
   ASSERT_EQ(t.notes.size(), 1u);

@@ -200,8 +200,8 @@ TEST(Sheet, AFinishThatAloneKeepsALimitNamesTheLimit) {
       << said;
   result.flat_before = score(0.4, 0.1, 1.5);
   const std::string both = report::as_read(recommendation(files));
-  EXPECT_NE(both.find("): that gains mean(modulation) +0.20"), std::string::npos) << both;
-  EXPECT_NE(both.find(" and costs variation(modulation) +0.10"), std::string::npos) << both;
+  EXPECT_NE(both.find("): that raises mean(modulation) by 0.20"), std::string::npos) << both;
+  EXPECT_NE(both.find(" and raises variation(modulation) by 0.10"), std::string::npos) << both;
 }
 
 // At a lower bound a widening goes the other way than a step up.

@@ -13,6 +13,7 @@
 #include "report/results.h"
 #include "scene/belief.h"
 #include "tests/search/small_study.h"
+#include "tests/support/thorough.h"
 
 namespace papilla::tests::decision_slow_test {
 namespace {
@@ -33,9 +34,9 @@ std::string moist_or_dry() {
 }
 
 Study believing() {
-  Study study = small_study();
+  Study study = quick_study();
   study.design.finger.belief = moist_or_dry();
-  study.search.evaluations = 8;
+  study.search.evaluations = cases(2, 8);
   return study;
 }
 

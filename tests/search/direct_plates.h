@@ -25,7 +25,7 @@ struct YieldCase {
 
 class JudgedYield {
  public:
-  explicit JudgedYield(const YieldCase& of)
+  explicit JudgedYield(const YieldCase& of, int field_skins = fidelity_level("draft").field_skins)
       : study_(parse_study(
             of.toml + "[constraints]\n\"" + of.metric + "\" = \"0 " + of.unit + "\"\n", of.name)) {
     // A draft on fewer pixels and skins, without what only errors need: both sides alike.
@@ -33,6 +33,7 @@ class JudgedYield {
     fidelity_.grid = of.grid;
     fidelity_.skins = of.skins;
     fidelity_.control_skins = 0;
+    fidelity_.field_skins = field_skins;
     fidelity_.threads = 1;
     const StudyProblem problem(study_);
     const Score score = judged(problem);

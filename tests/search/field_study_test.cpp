@@ -17,6 +17,7 @@
 #include "search/problem.h"
 #include "search/run.h"
 #include "search/task.h"
+#include "tests/support/without_belief.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests::field_study_test {
@@ -43,13 +44,15 @@ Fidelity small() {
 }
 
 TEST(FieldStudy, TheStrongestModulationKeepsTheMarginOfTheOxide) {
-  Study study = read_study(study_file(
+  Study study = without_belief(read_study(study_file(
       "margin",
       "[drive]\namplitude = \"150 V\"\n"
       "[design_space]\n\"drive.amplitude\" = [\"50 V\", \"900 V\"]\n"
       "\"texture.depth\" = [\"0 nm\", \"500 nm\"]\n"
       "[objective]\nmaximise = \"mean(modulation)\"\n"
-      "[constraints]\noxide_breakdown_margin = 2.0\n[search]\nevaluations = 10\ndrafts = 10\n"));
+      "[constraints]\noxide_breakdown_margin = 2.0\n[search]\nevaluations = 10\ndrafts = 10\n")));
+  study.design.accuracy.grid = 64;
+  study.design.finger.uncertainty.clear();
   OptimiseOptions options;
   options.folder = temporary("margin");
   fs::remove_all(options.folder);

@@ -34,6 +34,7 @@ struct FinishedRun {
   OptimiseResult result;
 
   FinishedRun() {
+    study.design.accuracy.grid = 64;  // as the search: what is tested is no question of pixels
     study.search.evaluations = 9;
     study.search.drafts = 6;
     study.constraints.push_back(read_constraint("haze", 0.03));
@@ -238,7 +239,7 @@ TEST(OptimiseOfOneRun, ResultsAreWrittenBeforeARuleOfPickIsRefused) {
 
 // Limits of a shape cost nothing: that no texture keeps one is told before anything is written.
 TEST(Optimise, RefusesASpaceThatNeverKeepsALimitOfTheShape) {
-  Study study = small_study();
+  Study study = quick_study();
   study.search.evaluations = 2;
   study.constraints = {read_constraint("min_wall", 5.5e-6), read_constraint("aspect_ratio", 3)};
   study.variables = {{"texture.diameter", "um", 1e-6, 4e-6, {}}};
@@ -257,7 +258,7 @@ TEST(Optimise, RefusesASpaceThatNeverKeepsALimitOfTheShape) {
 
 // The one shown is the least violating of all that were evaluated, and not on any front.
 TEST(Optimise, TheNearestToAnImpossibleLimitIsShown) {
-  Study study = small_study();
+  Study study = quick_study();
   study.search.evaluations = 6;
   study.search.method = "nsga2";
   study.variables = {{"texture.diameter", "um", 1e-6, 4.9e-6, {}},
@@ -296,7 +297,7 @@ TEST(Optimise, TheNearestToAnImpossibleLimitIsShown) {
 }
 
 TEST(Optimise, OneEvaluationHasAFinalist) {
-  Study study = small_study();
+  Study study = quick_study();
   study.search.evaluations = 1;
   const std::string folder = fresh_folder("few");
   EXPECT_TRUE(optimise_to_folder(study, {folder, false, {}, nullptr}).has_best());
@@ -304,7 +305,7 @@ TEST(Optimise, OneEvaluationHasAFinalist) {
 }
 
 TEST(Optimise, ADesignSpaceOfOnePointIsEvaluated) {
-  Study study = small_study();
+  Study study = quick_study();
   study.variables = {{"texture.diameter", "um", 3e-6, 3e-6, {3e-6}}};
   const OptimiseResult result =
       optimise_to_folder(study, {fresh_folder("point"), false, {}, nullptr});
@@ -313,7 +314,7 @@ TEST(Optimise, ADesignSpaceOfOnePointIsEvaluated) {
 }
 
 TEST(Optimise, ATargetIsMetByLeastSquares) {
-  Study study = small_study();
+  Study study = quick_study();
   study.objective = {};
   study.objective.targets = {{kModulation, 0.45}};
   study.constraints.clear();
@@ -336,7 +337,7 @@ TEST(Optimise, ATargetIsMetByLeastSquares) {
 
 // A relief that nobody feels is no better than none: both are judged on the same skins.
 TEST(Optimise, TheSurfaceWithoutTextureIsJudgedOnTheSkinsOfTheTexture) {
-  Study study = small_study();
+  Study study = quick_study();
   for (Variable& v : study.variables) {
     if (v.path == "texture.depth") {
       v.low = 2.5e-9;

@@ -189,6 +189,25 @@ TEST(Goals, AreNamedInTheOrderOfTheirFileAndAtMostThree) {
   EXPECT_TRUE(StudyProblem(study).goals().looks);
 }
 
+// Of two of one name a table of results would hold one.
+TEST(Goals, AreNamedOnce) {
+  Study study = oxide_study();
+  study.objective = {};
+  study.objective.maximise = {parse_metric("modulation")};
+  study.objective.minimise = {parse_metric("mean(modulation)")};
+  EXPECT_NE(refusal(study).find("objective.minimise: mean(modulation) is an objective already"),
+            std::string::npos)
+      << refusal(study);
+  study.objective.minimise.clear();
+  study.objective.maximise.push_back(parse_metric("mean(modulation)"));
+  EXPECT_NE(refusal(study).find("objective.maximise: mean(modulation)"), std::string::npos);
+  study.objective.maximise.back() = parse_metric("worst(modulation)");
+  EXPECT_EQ(refusal(study), "");
+  // A limit on what is wished for is no second objective.
+  study.constraints = {read_constraint("mean(modulation)", 0.4)};
+  EXPECT_EQ(refusal(study), "");
+}
+
 TEST(Goals, OfADriveAreRefusedWhereNothingIsDriven) {
   Study study = oxide_study();
   EXPECT_TRUE(StudyProblem(study).driven());

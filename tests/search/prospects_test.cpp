@@ -112,7 +112,7 @@ TEST(Prospects, SayWhatSkinsWithoutEndWouldLeave) {
 }
 
 TEST(Prospects, MovesAreShrunkByWhatSkinsScatterThemBy) {
-  const std::vector<SkinnedWorth> own = {{1, {0, 0.1}}, {2, {0, 0.1}}, {3, {0, 0.1}}};
+  const std::vector<WorthBySkin> own = {{1, {0, 0.1}}, {2, {0, 0.1}}, {3, {0, 0.1}}};
   const auto shrunk = [&](double scatter) {
     MemberWorth d = worth_of({1}, {{3}, {5}, {7}});
     d.by_skin = {{{-scatter, 0.1}}, {{0, 0.1}}, {{scatter, 0.1}}};
@@ -142,7 +142,7 @@ TEST(Prospects, MovesAreShrunkByWhatSkinsScatterThemBy) {
 TEST(Prospects, LevelsAreCombinedAsSkinsMoveThemTogether) {
   const std::vector<double> fine = {1, 2, 3}, rough = {0.3, -0.2, -0.1};
   const auto combined = [&](double shared) {
-    std::vector<SkinnedWorth> confirmed, few;
+    std::vector<WorthBySkin> confirmed, few;
     MemberWorth d = worth_of({1}, {{}, {}, {}});
     for (std::size_t i = 0; i < 3; ++i) {
       confirmed.push_back({fine[i], {0, 0}});
@@ -171,7 +171,7 @@ TEST(Prospects, LevelsAreCombinedAsSkinsMoveThemTogether) {
 }
 
 TEST(Prospects, MovesInProportionAreAlike) {
-  const std::vector<SkinnedWorth> own = {{0.1, {0.01, 0}}, {0.3, {0.03, 0}}};
+  const std::vector<WorthBySkin> own = {{0.1, {0.01, 0}}, {0.3, {0.03, 0}}};
   MemberWorth d = worth_of({1}, {{0.01}, {0.03}});
   d.by_skin = {{{0.001, 0.005}}, {{0.003, -0.005}}};
   shrink_moves(own, true, d);
@@ -348,7 +348,7 @@ TEST(Prospects, AreTrueAsOftenAsTheySayWhereSkinsHideTheMoves) {
   std::array<double, kBins> said{}, spread{}, so{};
   double error = 0, error_as_measured = 0, expected = 0, regret = 0, regret_as_measured = 0;
   for (int k = 0; k < kProblems; ++k) {
-    std::vector<SkinnedWorth> own;
+    std::vector<WorthBySkin> own;
     std::vector<double> truth, measured;
     MemberWorth d;
     d.weights.assign(kMembers, 1);  // the same one, for its draws

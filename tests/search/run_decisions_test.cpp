@@ -241,7 +241,6 @@ TEST(RunDecisions, ATailIsThatOfItsOwnScatter) {
 // A journal belongs to everything that decides its numbers, and to nothing else.
 TEST(RunDecisions, WhatDecidesTheResultIsInTheKeyOfTheJournal) {
   Study study = two_variables(12);
-  study.scatter = {{"texture.depth", 20e-9}};
   study.scenarios = {{"new", 1, {}}, {"worn", 2, {{"surface.contact_angle", 1.2}}}};
   study.variables[1].choices = {0.8, 1.0};
   const auto identity = [](const Study& of) { return StudyProblem(of).identity(); };
@@ -259,8 +258,15 @@ TEST(RunDecisions, WhatDecidesTheResultIsInTheKeyOfTheJournal) {
         s.variables[1].choices = {0.8, 1.1};
       },
       [](Study& s) { std::swap(s.objective.maximise, s.objective.minimise); },
-      [](Study& s) { s.scatter[0].tolerance = 30e-9; },
-      [](Study& s) { s.scatter[0].path = "texture.diameter"; },
+      [](Study& s) {
+        s.scatter = {{"texture.depth", 20e-9}};
+      },
+      [](Study& s) {
+        s.scatter = {{"texture.depth", 30e-9}};
+      },
+      [](Study& s) {
+        s.scatter = {{"texture.diameter", 20e-9}};
+      },
       [](Study& s) { s.objective.risk = "worst"; },
       [](Study& s) { s.constraints[0].limit *= 1.1; },
       [](Study& s) { s.scenarios[1].weight = 3; },

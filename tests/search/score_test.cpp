@@ -335,8 +335,30 @@ TEST(Slopes, TryThePartOfAStepThatMakesAShape) {
   EXPECT_EQ(found[0].down.end, Drift::End::Limit);
   EXPECT_EQ(found[0].down.limit, "min_wall");
   EXPECT_EQ(found[0].down.most, 0);
-  // Half of the change by a part of the step, over that part.
-  EXPECT_NEAR(found[0].change[0], 0.5 * 0.1 / period->part, 1e-9);
+  // The slope between both ends, a part of a step and a step apart.
+  EXPECT_NEAR(found[0].change[0], 0.1 / (1 + period->part), 1e-9);
+}
+
+// The space may end before a step where a limit is nearer: a width near its upper bound.
+TEST(Slopes, EndAtALimitThatIsNearerThanTheEndOfTheSpace) {
+  Study study = default_study();
+  const StudyProblem problem(study);
+  double wall = 0;
+  for (const Constraint& c : study.constraints) {
+    if (limit_name(c.on) == "min_wall") wall = c.limit;
+  }
+  const double widest = study.variables[1].high - 50e-9;
+  const Point centre = problem.space().unit({widest + wall + 20e-9, widest, 300e-9, 1.1});
+  const std::vector<SensitivityMove> moves = sensitivity_moves(problem, {centre});
+  Score here;
+  here.ok = true;
+  here.values = {0.5, 0.25};
+  here.oxide_margin = 10;
+  const auto found =
+      sensitivity(problem, {centre}, moves, here, std::vector<Score>(moves.size(), here));
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_EQ(found[1].up.limit, "min_wall");
+  EXPECT_NEAR(found[1].up.most, 20e-9, 1e-12);
 }
 
 // Five per cent, or what is read of a look: of a sparkle of nothing nothing is lost.

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "search/codec.h"
+#include "search/decision.h"
 #include "search/differing.h"
 #include "search/findings.h"
 #include "search/pick.h"
@@ -315,16 +316,60 @@ TEST(SmallDecisions, MovesStayInTheSpaceAndKeepTheLimitsOfTheShape) {
     std::string out;
     for (const SensitivityMove& m : sensitivity_moves(problem, {centre})) {
       out += std::to_string(m.variable) + (m.sign < 0 ? "- " : "+ ");
-      EXPECT_NEAR(m.unit[m.variable], centre[m.variable] + 0.05 * m.sign, 1e-12);
+      const double bound = m.sign < 0 ? 0 : 1;
+      const double room = std::abs(bound - centre[m.variable]);
+      EXPECT_NEAR(m.part, std::min(1.0, room / 0.05), 1e-12);
+      EXPECT_NEAR(m.unit[m.variable], centre[m.variable] + 0.05 * m.part * m.sign, 1e-12);
+      EXPECT_TRUE(m.unit[m.variable] >= 0 && m.unit[m.variable] <= 1);
     }
     return out;
   };
   Point centre = problem.space().unit({8e-6, 3e-6, 400e-9, 1.1});
   EXPECT_EQ(moves(centre), "0- 0+ 1- 1+ 2- 2+ 3- 3+ ");
   centre[0] = 0.96, centre[3] = 0.04;
-  EXPECT_EQ(moves(centre), "0- 1- 1+ 2- 2+ 3+ ");
-  centre[0] = 0.95, centre[3] = 0.05;
   EXPECT_EQ(moves(centre), "0- 0+ 1- 1+ 2- 2+ 3- 3+ ");
+  centre[0] = 0.999, centre[3] = 0;  // no room to speak of
+  EXPECT_EQ(moves(centre), "0- 1- 1+ 2- 2+ 3+ ");
+}
+
+// Without relief the measures of the texture do nothing, whatever values the point has of them.
+TEST(SmallDecisions, StepsOfNumbersWithoutEffectHaveNoRow) {
+  const Study study = holes();
+  const StudyProblem problem(study);
+  const Point flat = problem.space().unit({7.3e-6, 3.1e-6, 0, 1.1});
+  const std::vector<SensitivityMove> moves = sensitivity_moves(problem, {flat});
+  std::set<std::size_t> moved, rows;
+  for (const SensitivityMove& m : moves) moved.insert(m.variable);
+  EXPECT_EQ(moved, (std::set<std::size_t>{2, 3}));
+  Score same;
+  same.ok = true;
+  same.values = {0.5, 0.2};
+  same.oxide_margin = 10;
+  for (const VariableSensitivity& s :
+       sensitivity(problem, {flat}, moves, same, std::vector<Score>(moves.size(), same)))
+    rows.insert(s.variable);
+  EXPECT_EQ(rows, moved);
+}
+
+// voltage_for alone is of no amplitude of the study's own, where its worst modulation would be.
+TEST(Pick, OfAStudyThatFindsItsVoltagesIsTheKnee) {
+  Study study = holes();
+  study.objective = {};
+  study.objective.minimise = {parse_metric("worst(voltage_for(modulation = 0.3))"),
+                              parse_metric("mean(friction)")};
+  Score score;
+  score.ok = true;
+  score.values = {150, 0.05}, score.errors = {2, 0.001};
+  score.worst = 0.4;
+  const StudyProblem found(study);
+  EXPECT_TRUE(found.driven());
+  EXPECT_EQ(decision_rule(found, "").kind, PickRule::Kind::Knee);
+  EXPECT_FALSE(pick_candidate(found, score).worst);
+  EXPECT_THROW(decision_rule(found, "worst"), InputError);
+  study.objective.minimise = {parse_metric("mean(friction_on)"), parse_metric("mean(friction)")};
+  const StudyProblem at_amplitude(study);
+  EXPECT_EQ(decision_rule(at_amplitude, "").kind, PickRule::Kind::Worst);
+  EXPECT_EQ(pick_candidate(at_amplitude, score).worst, 0.4);
 }
 
 std::string front_folder() {
@@ -402,7 +447,8 @@ TEST(Pick, TheFirstOfEqualsIsTaken) {
   for (PickCandidate& c : off) c.worst.reset();
   EXPECT_EQ(pick_design("", off), 1u);
   EXPECT_EQ(refusal_of([&] { pick_design("worst", off); }),
-            "--pick worst: without a drive there is no modulation; use \"knee\"");
+            "--pick worst: without a drive, or with amplitudes that voltage_for finds, there is no "
+            "modulation to go by; use \"knee\"");
 }
 
 // What ends with an empty text, or has empty ones in its middle, comes back.

@@ -12,6 +12,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/constants.h"
 #include "base/files.h"
 #include "base/watch.h"
 #include "search/advice.h"
@@ -494,6 +495,37 @@ TEST(Stages, ARunThatIsDoneAsksNothingMore) {
   EXPECT_EQ(last->stage, Stage::Done);
 }
 
+// Another version may have taken other steps at the end: what it did not ask is asked, and no more.
+TEST(Stages, ARunWhoseVersionTookFewerStepsIsGoneOnFrom) {
+  const std::string folder = fresh_folder("stages_steps"), other = fresh_folder("stages_fewer");
+  const Study study = evolved();
+  {
+    AnsweredRun first(study, folder, lines);
+    ASSERT_TRUE(first.whole());
+  }
+  const StudyProblem problem(study);
+  const Journal all(Folder::made(folder), kJournalName, journal_key(problem), true);
+  std::ptrdiff_t steps = 0;
+  {
+    Journal fewer(Folder::made(other), kJournalName, journal_key(problem), false);
+    for (const JournalRecord& record : all.records()) {
+      const bool step = decode_request(record.key)->stage == Stage::Sensitivity;
+      // The design itself, which comes first, and every other step.
+      if (!step || steps++ % 2 == 0) fewer.append(record);
+    }
+  }
+  ASSERT_GE(steps, 3);
+  AnsweredRun again(study, other, lines, true);
+  ASSERT_TRUE(again.whole());
+  EXPECT_EQ(again.count(Stage::Sensitivity), steps / 2);
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(again.asked.size()), steps / 2);
+  AnsweredRun same(study, folder, lines, true);
+  ASSERT_TRUE(same.whole());
+  ASSERT_EQ(again.run.result.sensitivity.size(), same.run.result.sensitivity.size());
+  for (std::size_t k = 0; k < same.run.result.sensitivity.size(); ++k)
+    EXPECT_EQ(again.run.result.sensitivity[k].change, same.run.result.sensitivity[k].change);
+}
+
 // Of two choices there are two designs; a journal knows why the search ended.
 TEST(Stages, ASearchThatKnowsEveryChoiceIsExhausted) {
   Study study = two_variables();
@@ -864,6 +896,31 @@ TEST(Stages, RoundsOfDraftsThatTheClockCutAreGoneOnFrom) {
     journals.insert(journal(folder));
   }
   EXPECT_EQ(journals.size(), 1u);
+}
+
+// Of eight designs the next round may well begin with the one that the clock cut the last one at:
+// the journal still tells both apart.
+TEST(Stages, RoundsOfDraftsOfChoicesAloneAreReadAsTheyWere) {
+  Study study = two_variables();
+  Variable &depth = study.variables[0], &angle = study.variables[1];
+  depth.choices = {100e-9, 300e-9, 500e-9, 700e-9};
+  angle.choices = {50 * kPi / 180, 70 * kPi / 180};
+  for (Variable* v : {&depth, &angle}) v->low = v->choices.front(), v->high = v->choices.back();
+  study.search.drafts = 12;
+  for (int seed = 1; seed <= 8; ++seed) {
+    study.search.seed = seed;
+    study.search.time = 1e-6;
+    const std::string folder = fresh_folder("stages_drafts_of_choices" + std::to_string(seed));
+    {
+      AnsweredRun a(study, folder, lines);
+      search_designs(a.run);
+      EXPECT_EQ(a.count(Stage::Search), 1) << seed;
+    }
+    study.search.time = 0;
+    AnsweredRun a(study, folder, lines, true, nullptr, {}, true);
+    EXPECT_NO_THROW(search_designs(a.run)) << seed;
+    EXPECT_TRUE(a.asked.empty()) << seed;
+  }
 }
 
 }  // namespace

@@ -183,10 +183,11 @@ TEST(Yield, IsPricedByItsPlates) {
   const Study none = study_with(kLimit), own = study_with(scatter + kLimit),
               limited = study_with(scatter + kLimit + "yield = \"90 %\"\n"),
               looks = study_with(scatter + "[constraints]\nhaze = \"10 %\"\n");
-  EXPECT_EQ(yield_price(none, 50, 9), 0);
-  EXPECT_DOUBLE_EQ(yield_price(own, 50, 9), 1e-5 * 2 * kPlates);
-  EXPECT_DOUBLE_EQ(yield_price(limited, 50, 9), 1e-5 * (11 * kPlates + 50 * kFewPlates));
-  EXPECT_DOUBLE_EQ(yield_price(looks, 50, 9), 1e-3 * 2 * kFewPlates);
+  EXPECT_EQ(yield_price(none, 0, 50, 9), 0);
+  EXPECT_DOUBLE_EQ(yield_price(own, 0, 50, 9), 1e-5 * 2 * kPlates);
+  EXPECT_DOUBLE_EQ(yield_price(limited, 0, 50, 9), 1e-5 * (11 * kPlates + 50 * kFewPlates));
+  EXPECT_DOUBLE_EQ(yield_price(looks, 1, 50, 9), 1e-3 * 2 * kFewPlates);
+  EXPECT_DOUBLE_EQ(yield_price(looks, 3, 50, 9), 3 * 1e-3 * 2 * kFewPlates);  // three scenarios
   EXPECT_EQ(plates_of(looks, true), kFewPlates);
 }
 

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -14,7 +15,9 @@
 
 #include "config/describe.h"
 #include "forward/forward.h"
+#include "geometry/io/files.h"
 #include "metrics/metrics.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests::evaluator_test {
 namespace {
@@ -81,7 +84,7 @@ TEST(Evaluator, TellsWhatEachNumberDoes) {
                         [&](const Slope& s) { return s.path == path; });
   };
   Evaluator evaluator(told.listener());
-  evaluator.wish({1, design, {}, 0});
+  evaluator.wish({1, design, {}});
   told.wait([&] { return !told.refined.empty() && told.refined.back() == "done"; });
   EXPECT_TRUE(told.slopes.empty());
   evaluator.want_slopes(true);
@@ -125,7 +128,7 @@ TEST(Evaluator, RefinesWhatIsAtHandAndThenWhatIsPinned) {
   const auto from = std::chrono::steady_clock::now();
   {
     Evaluator evaluator(told.listener());
-    Wish wish{11, design, {{4, pinned}}, 0};
+    Wish wish{11, design, {{4, pinned}}};
     wish.design.title = "a title says nothing";
     evaluator.wish(wish);
     told.wait([&] { return !told.refined.empty() && told.refined.back() == "done"; });
@@ -196,10 +199,10 @@ TEST(Evaluator, CarriesAnAnswerByTheDesignThatWasRefinedLast) {
   Answer refined, first;
   {
     Evaluator evaluator(told.listener());
-    evaluator.wish({1, at, {{4, pinned}}, 0});
+    evaluator.wish({1, at, {{4, pinned}}});
     told.wait([&] { return !told.refined.empty() && told.refined.back() == "done"; });
     refined = told.answers.back();
-    evaluator.wish({2, away, {{4, pinned}}, 0});
+    evaluator.wish({2, away, {{4, pinned}}});
     told.wait([&] { return last_is(2, Step::First); });
     first = told.answers.back();
   }
@@ -235,7 +238,7 @@ TEST(Evaluator, AnswersEachWishAtOnce) {
     Evaluator evaluator(told.listener());
     std::uint64_t revision = 0;
     for (const Design& wanted : {design, other, deeper}) {
-      evaluator.wish({++revision, wanted, {}, 0});
+      evaluator.wish({++revision, wanted, {}});
       told.wait([&] {
         return !told.answers.empty() && told.answers.back().revision == revision &&
                told.shapes.size() == (revision < 3 ? 1u : 2u);
@@ -252,6 +255,47 @@ TEST(Evaluator, AnswersEachWishAtOnce) {
     const double value = (expected.points.at(0).*member).value;
     EXPECT_NEAR((first.response.points.at(0).*member).value, value, 1e-9 * std::abs(value));
   }
+}
+
+// A map that is written anew under its name is another surface, though the design says the same.
+TEST(Evaluator, AnswersAnewForAMapThatWasWrittenAnew) {
+  const std::string file = temporary("anew.npy");
+  const auto write = [&](double depth) {
+    const Grid grid{64, 64, 20e-6, 20e-6};
+    Heightmap map{grid, std::vector<double>(grid.size(), 0)};
+    for (int iy = 0; iy < 64; ++iy) {
+      for (int ix = 0; ix < 64; ++ix) map(ix, iy) = ix % 16 < 8 ? 0 : -depth;
+    }
+    write_npy(file, map);
+  };
+  Measured3d measured;
+  measured.file = file, measured.width = 20e-6, measured.patch = 12e-6;
+  Design design = quick_design();
+  design.texture = Texture{measured};
+  write(100e-9);
+  const auto before = std::filesystem::last_write_time(file);
+  Told told;
+  const auto answered = [&](std::uint64_t revision) {
+    return std::find_if(told.answers.begin(), told.answers.end(),
+                        [&](const Answer& a) { return a.revision == revision; });
+  };
+  {
+    Evaluator evaluator(told.listener());
+    evaluator.wish({1, design, {}});
+    told.wait([&] { return answered(1) != told.answers.end(); });
+    write(600e-9);
+    std::filesystem::last_write_time(file, before + std::chrono::seconds(1));
+    evaluator.wish({2, design, {}});
+    told.wait([&] { return answered(2) != told.answers.end(); });
+  }
+  ASSERT_TRUE(told.failures.empty());
+  EXPECT_EQ(told.shapes, (std::vector<std::uint64_t>{1, 2}));
+  const Response expected = first_answer(
+      evaluate(scene_of(design), design.texture, quick_fidelity(design)), design, nullptr);
+  const double value = expected.points.at(0).friction_off.value;
+  EXPECT_EQ(answered(2)->step, Step::First);
+  EXPECT_NEAR(answered(2)->response.points.at(0).friction_off.value, value, 1e-9 * value);
+  EXPECT_GT(std::abs(answered(1)->response.points.at(0).friction_off.value / value - 1), 1e-3);
 }
 
 }  // namespace

@@ -16,18 +16,19 @@ namespace papilla::capillary {
 
 struct DropletOptions {
   double drops_per_volume = 100e18;  // initial droplets per water volume [1/m^3]
-  double first_step = 200e-9;        // [m]; the mobility of droplets: a stated model option
+  double first_step = 200e-9;        // [m] length of the first steps; stands for droplet mobility
   int halvings = 4;                  // the last step is first_step / 2^halvings
   double gap_floor = 0.3e-9;         // smaller gaps count as this [m]: a water molecule's size
-  // From disc to film around this width [m], a third of the paper's window, and all bridges around
-  // this wetted area: between 0.8 and 1.25 times the limit (Eq. capillary.22).
+  // A bridge turns from a disc into a film as its width passes film_width [m], a third of the
+  // paper's patch; all bridges do so as the wetted share of the patch passes film_area. Both
+  // transitions are gradual, from 0.8 to 1.25 times the limit (Eq. capillary.22).
   double film_width = 4e-6;
   double film_area = 0.40;
-  int max_moves = 1000;  // per droplet; 0: the initial state
+  int max_moves = 1000;  // per droplet and step length; 0: droplets stay where they start
 
   // Edges of the texture below the gap; null: the surface counts as smooth.
   std::shared_ptr<const RimMap> rims;
-  bool rim_pinning = false;     // a line does not pass an edge within Gibbs's range
+  bool rim_pinning = false;     // edges pin contact lines (Gibbs's condition, Eq. capillary.16)
   bool corner_wicking = false;  // drops at the foot of a wall creep along it
 };
 
@@ -42,7 +43,7 @@ struct SettleReport {
   double initial_energy = 0, final_energy = 0;  // [J], after the initial coalescence and at the end
   int initial_droplets = 0, moves = 0, merges = 0;
   long evaluations = 0;   // of a bridge's energy
-  bool converged = true;  // every droplet's last step found nothing lower within max_moves
+  bool converged = true;  // every droplet came to rest before it had made max_moves moves
   bool energy_rose = false;
 };
 
@@ -52,10 +53,11 @@ std::vector<DropletSeed> scatter_droplets(const Grid& grid, double volume,
                                           const DropletOptions& options, std::uint64_t seed,
                                           std::uint64_t index);
 
-// Settles droplets in the patch (Eqs. capillary.4-8). Status: Dry (no water), Discs, Film (a bridge
-// or the wetted area too large for discs: those bridges go over into a film of one pressure, Eqs.
-// capillary.15, 22; `film` marks it), Flooded (more water than gap: no
-// meniscus, no force). Cost: 10-25 us per droplet.
+// Settles droplets in the patch (Eqs. capillary.4-8). Status: Dry: there is no water. Discs: every
+// bridge is a disc. Film: a bridge or the wetted area is too large for discs, so bridges become
+// films, with one pressure in each connected region (Eqs. capillary.15, 22; `Wetting::film` marks
+// their pixels). Flooded: the water fills the gap of the patch or of a film's region, so there is
+// no meniscus and no force. Cost: 10-25 us per droplet.
 Wetting settle_droplets(const Gap& gap, const std::vector<DropletSeed>& droplets,
                         const WaterProperties& water, const DropletOptions& options,
                         SettleReport* report = nullptr);
@@ -65,15 +67,15 @@ Wetting settle_droplets(const Gap& gap, double volume, const WaterProperties& wa
                         const DropletOptions& options, std::uint64_t seed, std::uint64_t index,
                         SettleReport* report = nullptr);
 
-// The same water at the same places on another gap or with other contact angles (electrowetting):
-// bridges get their radius, force and energy anew; droplets that do not bridge float and keep their
-// shape and side, unless the skin now touches them. Discs that now overlap merge. Water in corners
-// stays there.
+// The same water at the same places on another gap or with other contact angles (electrowetting). A
+// bridge gets a new radius, force and energy, and stays a bridge until it ruptures. A droplet that
+// does not bridge keeps its shape and side, unless the gap is now so narrow that it touches both
+// surfaces; it then becomes a bridge. Discs that now overlap merge. Water in corners stays there.
 Wetting rewet(const Wetting& wetting, const Gap& gap, const WaterProperties& water,
               const DropletOptions& options = {});
 
-// How far a mobility or a number of droplets a factor 4 off moves results: half the range,
-// relative.
+// Half the relative range of the results when the mobility of droplets and their number per volume
+// are wrong by a factor of 4 either way.
 struct DropletBand {
   double capillary = 0, pull = 0;  // of the capillary force; of pull and modulation
 };

@@ -158,9 +158,10 @@ function showShared() {
 function showBudget() {
   const tasks = data.designs[state.design].tasks, task = tasks[state.finger === 'mean' ? 0 : +state.finger] || tasks[0];
   const points = task.points.filter((p) => p.modulation);
-  const names = { sampling: 'sampling', grid: 'grid', solver: 'solver', humidity: 'humidity', method: 'method', parameters: 'parameters' };
-  const sets = Object.keys(names).map((part, i) => ({
-    label: names[part], backgroundColor: colours[i],
+  const beside = ['model', 'water'];  // common to all designs, in no total
+  const parts = points.length ? Object.keys(points[0].modulation.parts).filter((part) => !beside.includes(part)) : [];
+  const sets = parts.map((part, i) => ({
+    label: part, backgroundColor: colours[i % colours.length],
     data: points.map((p) => p.modulation.se > 0 ? Math.pow(p.modulation.parts[part], 2) / p.modulation.se : 0),
     part: points.map((p) => p.modulation.parts[part]),
   })).filter((set) => set.data.some((v) => v > 0));

@@ -116,7 +116,7 @@ function showCompared() {
   designs.forEach((d, i) => {
     const figure = document.createElement('figure'), canvas = document.createElement('canvas'), caption = document.createElement('figcaption');
     canvas.className = 'map';
-    caption.textContent = d.name + ': height';
+    caption.textContent = d.name + ': height' + (d.shown ? ', ' + d.shown : '');
     figure.append(canvas, caption);
     box.appendChild(figure);
     drawMap(canvas, d.heights, 'nm', 1e9);
