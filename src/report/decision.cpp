@@ -233,12 +233,23 @@ std::string limits_sentence(const ResultFiles& f) {
           : ", if it is made exactly so (tolerances in a section [scatter] of the study add what "
             "making scatters)";
   const std::string name = name_of(f, d.best);
+  const auto surest =
+      static_cast<std::size_t>(std::max_element(d.designs.begin(), d.designs.end(),
+                                                [](const Prospect& a, const Prospect& b) {
+                                                  return a.p_limits < b.p_limits;
+                                                }) -
+                               d.designs.begin());
   if (d.sure(wanted))
     return fmt::format(" With probability {} {} keeps every limit{}.", has, name, made);
   return fmt::format(
-      " With probability {} {} keeps every limit, the highest of the front, where the study wants "
-      "{} (risk.limits): loosen a limit or leave more room to it{}.",
-      has, name, wanted_text(f), made);
+      " With probability {} {} keeps every limit, {}, where the study wants {} (risk.limits): "
+      "loosen a limit or leave more room to it{}.",
+      has, name,
+      d.designs[d.best].less_sure > 0
+          ? fmt::format("{} with {}, too little more for the members to tell", name_of(f, surest),
+                        p_limits_text(f, surest))
+          : std::string("the highest of the front"),
+      wanted_text(f), made);
 }
 
 // Of the members that tell no design from another, as none of them has a number there: " At 16 of
@@ -419,7 +430,8 @@ std::string of_the_sure_text(const ResultFiles& f) {
   std::size_t unsure = 0;
   for (std::size_t i = 0; i < d.designs.size(); ++i) unsure += d.keeps_limits(i, wanted) ? 0 : 1;
   if (unsure == 0) return {};
-  if (!d.sure(wanted)) return " of those that keep every limit the most surely";
+  if (!d.sure(wanted))
+    return " of those that keep every limit the most surely, as far as the members tell";
   return " of those that keep every limit with probability " + wanted_text(f) + " or more";
 }
 

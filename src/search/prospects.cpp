@@ -307,6 +307,31 @@ void shrink_moves(const std::vector<WorthBySkin>& own, bool in_proportion, Membe
   }
 }
 
+namespace {
+
+// By the members at which one of both keeps every limit. Eq. search.17
+void add_less_sure(const MemberWorth& d, std::vector<Prospect>& found) {
+  const auto surest =
+      static_cast<std::size_t>(std::max_element(found.begin(), found.end(),
+                                                [](const Prospect& a, const Prospect& b) {
+                                                  return a.p_limits < b.p_limits;
+                                                }) -
+                               found.begin());
+  const double all = total(d.weights);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double less = found[surest].p_limits - found[i].p_limits;
+    if (!(less > 1e-9)) continue;  // weights are sums of fractions
+    double variance = 0;
+    for (std::size_t m = 0; m < d.weights.size(); ++m) {
+      const double here = (d.keeps(surest, m) ? 1 : 0) - (d.keeps(i, m) ? 1 : 0);
+      variance += square(d.weights[m] / all * (here - less));
+    }
+    found[i].less_sure = variance > 0 ? less / std::sqrt(variance) : kInfinity;
+  }
+}
+
+}  // namespace
+
 std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& risk) {
   PAPILLA_CHECK(designs.kept.size() == designs.worth.size(), "limits of every design");
   const MemberWorth d = over_skins(designs);
@@ -341,6 +366,7 @@ std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& ri
     else if (!worth.empty())
       p.merit = apply_risk(risk.risk, true, worth, weights);
   }
+  add_less_sure(d, out);
   return out;
 }
 
@@ -385,13 +411,14 @@ double known_share(const MemberWorth& designs) {
 
 std::size_t chosen(const std::vector<Prospect>& prospects, double p_limits) {
   PAPILLA_CHECK(!prospects.empty(), "a design to choose");
-  double surest = 0;
-  for (const Prospect& p : prospects) surest = std::max(surest, p.p_limits);
-  // Weights are sums of fractions.
-  const double wanted = std::min(p_limits, surest) - 1e-9;
+  constexpr double kTold = 2;  // standard errors from which on members tell designs apart
+  const double wanted = p_limits - 1e-9;  // weights are sums of fractions
+  const bool any = std::any_of(prospects.begin(), prospects.end(),
+                               [&](const Prospect& p) { return p.p_limits >= wanted; });
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < prospects.size(); ++i) {
-    if (prospects[i].p_limits < wanted) continue;
+    const Prospect& p = prospects[i];
+    if (any ? p.p_limits < wanted : p.less_sure > kTold) continue;
     if (!best || prospects[i].merit > prospects[*best].merit) best = i;
   }
   return *best;

@@ -68,6 +68,9 @@ struct Prospect {
   double merit = 0;               // what the risk makes of it: the highest is chosen. Eq. search.17
   std::vector<double> p_limit{};  // of each limit to be kept
   double p_limits = 1;            // of all of them together
+  // How far p_limits is below the highest of the designs, in standard errors of their difference
+  // over the members.
+  double less_sure = 0;
 };
 std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& risk);
 
@@ -87,7 +90,7 @@ double best_worth(const MemberWorth& designs);
 double known_share(const MemberWorth& designs);
 
 // The highest merit of those that keep every limit with this probability; where none does, of
-// those that keep them with the highest; the first among equals.
+// those that the members do not tell from the surest; the first among equals.
 std::size_t chosen(const std::vector<Prospect>& prospects, double p_limits);
 
 // Members that share a choice of the model.

@@ -200,10 +200,23 @@ TEST(Prospects, ALimitIsKeptWithTheWeightOfItsMembers) {
   EXPECT_EQ(chosen(p, 0.5), 0u);
 }
 
-TEST(Prospects, WhereNoneIsSureEnoughTheSurestIsChosen) {
-  MemberWorth d = worth_of({0.5, 0.3, 0.2}, {{5, 5, 5}, {1, 1, 1}, {2, 2, 2}});
-  d.kept = {{{true, false, false}}, {{true, true, false}}, {{true, true, false}}};
-  EXPECT_EQ(chosen(prospects(d, {}), 0.9), 2u);  // the better of both with 80 %
+// Of twelve members the designs keep their limits at 3, 10 and 9: seven members tell the first from
+// the surest (4.1 standard errors), one does not tell the last from it (1.04).
+TEST(Prospects, WhereNoneIsSureEnoughTheBestOfTheSurestIsChosen) {
+  constexpr std::size_t kMembers = 12;
+  const auto all = [](double worth) { return std::vector<double>(kMembers, worth); };
+  MemberWorth d = worth_of(all(1), {all(5), all(1), all(2)});
+  d.kept.clear();
+  for (const std::size_t kept : {3, 10, 9}) {
+    std::vector<bool>& limit = d.kept.emplace_back().emplace_back(kMembers, false);
+    for (std::size_t m = 0; m < kept; ++m) limit[m] = true;
+  }
+  const std::vector<Prospect> p = prospects(d, {});
+  EXPECT_NEAR(p[0].less_sure, 7 / std::sqrt(7 * 25 / 144.0 + 5 * 49 / 144.0), 1e-9);
+  EXPECT_EQ(p[1].less_sure, 0);
+  EXPECT_NEAR(p[2].less_sure, 1 / std::sqrt(121 / 144.0 + 11 / 144.0), 1e-9);
+  EXPECT_EQ(chosen(p, 0.9), 2u);
+  EXPECT_EQ(chosen(p, 0.8), 1u);  // 10 of 12
 }
 
 TEST(Prospects, ADesignWithoutAnAnswerIsTheLeastOfTheOthersThere) {
