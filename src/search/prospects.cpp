@@ -366,7 +366,7 @@ std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& ri
     else if (!worth.empty())
       p.merit = apply_risk(risk.risk, true, worth, weights);
   }
-  add_less_sure(d, out);
+  add_less_sure(designs, out);  // draws of skins are no members
   return out;
 }
 

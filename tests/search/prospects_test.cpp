@@ -217,6 +217,9 @@ TEST(Prospects, WhereNoneIsSureEnoughTheBestOfTheSurestIsChosen) {
   EXPECT_NEAR(p[2].less_sure, 1 / std::sqrt(121 / 144.0 + 11 / 144.0), 1e-9);
   EXPECT_EQ(chosen(p, 0.9), 2u);
   EXPECT_EQ(chosen(p, 0.8), 1u);  // 10 of 12
+  // What skins leave open of the worth makes no more members of them.
+  d.by_skin.assign(3, {kMembers, {0.1, -0.1}});
+  EXPECT_NEAR(prospects(d, {})[2].less_sure, p[2].less_sure, 1e-9);
 }
 
 TEST(Prospects, ADesignWithoutAnAnswerIsTheLeastOfTheOthersThere) {
