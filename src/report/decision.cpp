@@ -378,7 +378,7 @@ std::string felt_sentence(const ResultFiles& f) {
     felt += known.worths[m] >= kNoticed ? known.weights[m] : 0;
   return fmt::format(
       " People notice a worst modulation of {} and more (Fehlberg 2022): with probability {} it is "
-      "felt at every humidity.",
+      "felt by every finger of the study at every humidity.",
       noticed_text(),
       percent_stated("probability that the worst modulation of what is "
                      "recommended is noticed",

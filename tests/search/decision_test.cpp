@@ -137,7 +137,9 @@ TEST(Decision, IsTheLeastExpectedRegretAndNamesWhatOverturnsIt) {
       << said;
   // People notice .2: the third member has less of it.
   ASSERT_LT(there(most), 0.2);
-  EXPECT_NE(said.find("with probability 70 % it is felt at every humidity."), std::string::npos)
+  EXPECT_NE(
+      said.find("with probability 70 % it is felt by every finger of the study at every humidity."),
+      std::string::npos)
       << said;
   const std::string lead = report::as_read(report::recommendation(a.files()));
   EXPECT_NE(lead.find(fmt::format(
