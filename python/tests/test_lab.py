@@ -54,6 +54,8 @@ def test_a_lab_that_is_opened_again_has_its_batch(lab: pp.Lab) -> None:
     assert again is not None and lab.batch is not None
     assert list(again) == lab.batch.experiments and len(again) == len(lab.batch)
     assert (again.purpose, again.stop) == (lab.batch.purpose, lab.batch.stop)
+    with pytest.raises(pp.InputError, match="seconds.*expected 0, no limit, or more"):
+        pp.Lab(lab.folder).next(seconds=-5)
 
 
 def test_a_lab_takes_designs_and_starts_again_after_a_wrong_word(tmp_path: Path, lab: pp.Lab) -> None:

@@ -26,6 +26,7 @@ NextExperiments next_experiments(const std::vector<std::string>& sources,
   return across([&] {
     if (sources.empty()) throw wrong("sources", "name one at least");
     if (options.count < 1) throw wrong("count", "expected 1 at least");
+    if (!(options.seconds >= 0)) throw wrong("seconds", "expected 0, no limit, or more");
     const Watch watch({}, options.stop);
     NextRun run;
     run.source = {sources,           options.belief,   options.worth,
