@@ -234,10 +234,8 @@ std::string limits_sentence(const ResultFiles& f) {
             "making scatters)";
   const std::string name = name_of(f, d.best);
   const auto surest =
-      static_cast<std::size_t>(std::max_element(d.designs.begin(), d.designs.end(),
-                                                [](const Prospect& a, const Prospect& b) {
-                                                  return a.p_limits < b.p_limits;
-                                                }) -
+      static_cast<std::size_t>(std::find_if(d.designs.begin(), d.designs.end(),
+                                            [](const Prospect& p) { return p.less_sure == 0; }) -
                                d.designs.begin());
   if (d.sure(wanted))
     return fmt::format(" With probability {} {} keeps every limit{}.", has, name, made);
@@ -369,7 +367,7 @@ bool has_worst_over_belief(const ResultFiles& f) {
          f.result.best < d.designs.size() && known_worths(d.worth, f.result.best).all > 0;
 }
 
-// How probable it is that people notice the worst modulation.
+// How probable it is that people notice the worst modulation. Eq. search.26
 std::string felt_sentence(const ResultFiles& f) {
   if (!has_worst_over_belief(f)) return {};
   const KnownWorths known = known_worths(decision_of(f).worth, f.result.best);

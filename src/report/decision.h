@@ -18,7 +18,7 @@ namespace papilla::report {
 // for; none without a decision.
 std::vector<std::string> decision_grounds(const ResultFiles& files);
 // "0.153 on average over belief (0.029 to 0.398 on 95 % of it)": the worst modulation of what is
-// shown at the members, where that is what belief decides by; "" otherwise.
+// shown at the members, where that is what belief decides by; "" otherwise. Eq. search.26
 std::string worst_over_belief(const ResultFiles& files);
 // " of those that keep every limit with probability 90 % or more": among which designs the choice
 // is; "" where all do.
