@@ -5,16 +5,18 @@ function(papilla_unity name)
     return()
   endif()
   set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  foreach(room config design estimate published search lab rank calibrate claims measure fabricate cases metrics report studio cli)
-    if(src/${room} IN_LIST ARGN)
-      file(GLOB found CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
+  foreach(folder optim src/config src/design src/estimate src/published src/search src/lab src/rank src/calibrate src/claims src/measure
+          src/fabricate src/cases src/metrics src/report src/studio src/cli)
+    if(folder IN_LIST ARGN)
+      file(GLOB found CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
+      cmake_path(GET folder FILENAME room)
       set_source_files_properties(${found} PROPERTIES UNITY_GROUP ${room})
     endif()
   endforeach()
 endfunction()
 
 # Rooms that read, arrange and print: what they take is the compiler's time, not the processor's (docs/architecture.md).
-set(PAPILLA_ROOMS_THAT_TALK config design published calibrate claims measure cases report cli api)
+set(PAPILLA_ROOMS_THAT_TALK config design published lab rank calibrate claims measure cases report cli api)
 set(PAPILLA_TALKING_OPTIONS $<$<CONFIG:Release>:-O1>)
 
 # Loops over pixels run there, over arrays of their own: asserting each index costs a search a seventh of its time. Whoever

@@ -1,5 +1,6 @@
 // What nearly every file of the library includes, compiled once (cmake/modules.cmake). Files
-// include what they use all the same: preset dev builds without this.
+// include what they use all the same: preset dev builds without this. Not nlohmann/json.hpp:
+// whatever is compiled after it takes the compiler a second more, and few files read or write JSON.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,7 +15,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 #include <set>

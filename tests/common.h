@@ -2,23 +2,10 @@
 // use all the same.
 #pragma once
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <complex>
-#include <filesystem>
 #include <fstream>
-#include <functional>
-#include <map>
-#include <memory>
-#include <nlohmann/json.hpp>
-#include <numeric>
-#include <optional>
 #include <random>
 #include <sstream>
-#include <string>
-#include <variant>
-#include <vector>
+
+#include "src/common.h"

@@ -14,6 +14,7 @@ import papilla as pp
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("PAPILLA_PROGRAM", str(ROOT / "build/ci/papilla"))
+THOROUGH = "PAPILLA_THOROUGH" in os.environ  # all cases, not a sample: scripts/test --thorough
 
 # A second of work: one humidity, few pixels.
 QUICK = {"accuracy.level": "draft", "accuracy.grid": 64, "environment.relative_humidity": ["50 %"]}

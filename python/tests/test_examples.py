@@ -10,17 +10,18 @@ from typing import Any
 
 import pytest
 
-from conftest import ROOT
+from conftest import ROOT, THOROUGH
 
 sys.path.insert(0, str(ROOT / "python/docs"))
 import run_notebooks  # noqa: E402
 
 EXAMPLES = ROOT / "python/examples"
+NOTEBOOKS = sorted(path.stem for path in EXAMPLES.glob("*.ipynb"))
 
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("name", sorted(path.stem for path in EXAMPLES.glob("*.ipynb")))
+@pytest.mark.parametrize("name", NOTEBOOKS if THOROUGH else [name for name in NOTEBOOKS if name != "own_optimiser"])
 def test_a_notebook_shows_what_it_does(name: str, tmp_path: pathlib.Path) -> None:
     import nbformat
 
@@ -34,7 +35,7 @@ def test_a_notebook_shows_what_it_does(name: str, tmp_path: pathlib.Path) -> Non
 
 
 def test_there_are_three_notebooks() -> None:
-    assert len(list(EXAMPLES.glob("*.ipynb"))) == 3
+    assert len(NOTEBOOKS) == 3
 
 
 def lines_of(script: str, *arguments: str) -> list[str]:

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import papilla as pp
+from conftest import THOROUGH
 
 STUDY = {"base": "m3_samples/a3h350.toml", "environment.relative_humidity": ["50 %"],
          "accuracy": {"level": "draft", "grid": 32},
@@ -136,7 +137,7 @@ def test_a_run_that_is_finished_asks_for_no_more_designs(tmp_path: pathlib.Path)
 
 @pytest.mark.slow
 def test_a_search_runs_to_its_end_and_goes_on_after_ctrl_c(tmp_path: pathlib.Path) -> None:
-    study = pp.Study(STUDY)
+    study = pp.Study({**STUDY, "search": {"evaluations": 15, "seed": 3}})
     study.own.design.evaluate()  # threads of OpenMP exist before the search forks
     seen: list[str] = []
 
@@ -153,9 +154,10 @@ def test_a_search_runs_to_its_end_and_goes_on_after_ctrl_c(tmp_path: pathlib.Pat
     assert run.best in run.front or run.best.folder
     design = run.best.load()
     assert 1e-7 <= design["texture.depth"] <= 5e-7
-    whole = study.optimize(tmp_path / "whole")
-    assert [f.point.values_si.tolist() for f in whole.finalists] == [f.point.values_si.tolist() for f in run.finalists]
     assert pp.verify(tmp_path / "run/best", geometry=True)[0].sound
+    if THOROUGH:  # tests of the command ask for every byte
+        whole = study.optimize(tmp_path / "whole")
+        assert [f.point.values_si.tolist() for f in whole.finalists] == [f.point.values_si.tolist() for f in run.finalists]
 
 
 KINDS = {**STUDY, "design_space": {**STUDY["design_space"], "texture.type": {"choice": ["hole_array", "pillar_array"]}},

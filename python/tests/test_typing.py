@@ -12,7 +12,7 @@ import sys
 import pytest
 
 import papilla as pp
-from conftest import ROOT
+from conftest import ROOT, THOROUGH
 from papilla import _native
 
 STUBS = (ROOT / "python/papilla/_native.pyi").read_text()
@@ -34,7 +34,7 @@ disallow_untyped_calls = False
 def test_mypy_is_content_with_the_package_and_the_examples(tmp_path: pathlib.Path) -> None:
     python = ROOT / "python"
     config = tmp_path / "mypy.ini"
-    config.write_text((python / "mypy.ini").read_text() + (READ if "PAPILLA_THOROUGH" in os.environ else NOT_READ))
+    config.write_text((python / "mypy.ini").read_text() + (READ if THOROUGH else NOT_READ))
     package, examples = ([str(path) for path in sorted(python.glob(files))] for files in ("papilla/*.py*", "examples/*.py"))
     assert package and examples
     done = subprocess.run([sys.executable, "-m", "mypy", "--config-file", str(config), "--cache-dir", str(tmp_path),

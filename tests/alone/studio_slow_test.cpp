@@ -20,6 +20,7 @@
 #include "optim/journal.h"
 #include "tests/studio/in_browser.h"
 #include "tests/studio/loopback.h"
+#include "tests/support/thorough.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests::studio_slow_test {
@@ -116,7 +117,7 @@ TEST(KilledStudio, LosesNothingThatItAnswered) {
       "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n\n[texture]\ndepth = \"600 nm\"\n\n"
       "[environment]\nrelative_humidity = [\"55 %\"]\n");
   const char* wanted = std::getenv("PAPILLA_KILLS");
-  const int kills = wanted ? std::atoi(wanted) : 8;
+  const int kills = wanted ? std::atoi(wanted) : cases(4, 8);
   const char* noted = std::getenv("PAPILLA_KILLS_FILE");
   std::string notes =
       "kill,after [ms],changes answered,saves answered,records of the search before\n";

@@ -20,7 +20,7 @@ namespace {
 
 using BeliefCoverageSlow = Calibrate;
 
-const int kTruths = cases(2, 20);                                        // the page is of all
+const int kTruths = cases(1, 20);                                        // the page is of all
 constexpr double kNoise = 0.05;                                          // of each friction
 constexpr const char* kHumidities[] = {"15 %", "30 %", "45 %", "75 %"};  // of flat glass
 constexpr const char* kPredicted = "a3h600";                             // at 55 %

@@ -43,7 +43,7 @@ TEST(Reproduce, FewerSkinsSayTheSameWithinTheirScatter) {
   for (const auto& row : csv_rows(read_bytes(path))) table[row.at(0)] = row;
   ReproduceOptions options;
   const std::vector<std::string> ids = m3_claim_ids();
-  const auto every = static_cast<std::size_t>(cases(2, 1));
+  const auto every = static_cast<std::size_t>(cases(5, 1));
   for (std::size_t k = 0; k < ids.size(); k += every) options.ids.push_back(ids[k]);
   options.finger = read_finger(std::string(PAPILLA_DESIGNS_DIR) + "/fingers/reference.toml");
   options.sampling.skins = 4;

@@ -54,11 +54,12 @@ TEST(Optimize, AnyNumberOfWorkersOrRanksGivesTheSameBytes) {
   ASSERT_EQ(run.status, 0) << run.err;
   expect_as_the_whole(place.path() / "jobs");
   if (!has_mpi(place)) GTEST_SKIP() << "no MPI here";
-  for (const std::string ranks : {"1", "3"}) {
-    const Outcome launched =
-        place.shell(kLaunch + "-n " + ranks + " " + kOptimize + " --out ranks" + ranks);
+  for (const int ranks : {3, 1}) {
+    const Outcome launched = place.shell(kLaunch + "-n " + std::to_string(ranks) + " " + kOptimize +
+                                         " --out ranks" + std::to_string(ranks));
     ASSERT_EQ(launched.status, 0) << launched.err;
-    expect_as_the_whole(place.path() / ("ranks" + ranks));
+    expect_as_the_whole(place.path() / ("ranks" + std::to_string(ranks)));
+    if (!is_thorough()) break;
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/cli/program.h"
+#include "tests/support/thorough.h"
 
 namespace papilla::tests::tutorial_slow_test {
 namespace {
@@ -59,7 +60,9 @@ TEST(Tutorial, ItsNumbersAreWhatTheProgramSays) {
       page, said,
       std::regex("the grid leaves\\s+(\\d+) % of `F_off` at `draft`, (\\d+) % at `design`")));
   EXPECT_NEAR(std::stod(said[1]), grid_part(place, "draft"), 1);
-  EXPECT_NEAR(std::stod(said[2]), grid_part(place, "design"), 1);
+  if (is_thorough()) {
+    EXPECT_NEAR(std::stod(said[2]), grid_part(place, "design"), 1);
+  }
 }
 
 TEST(Tutorial, EveryBlockWorksAsWritten) {

@@ -8,15 +8,17 @@
 #include "numerics/statistics.h"
 #include "optim/posterior.h"
 #include "tests/optim/linear_posterior.h"
+#include "tests/support/thorough.h"
 
 namespace papilla::tests::posterior_slow_test {
 namespace {
 
-// A hundred truths of three numbers each, planted: 95 % intervals hold nine or more of ten, those
-// of 32 chosen members too.
+// A hundred truths of three numbers each (of all cases), planted: 95 % intervals hold nine or more
+// of ten, those of 32 chosen members too.
 TEST(PosteriorSlow, IntervalsHoldPlantedTruths) {
+  const auto truths = static_cast<std::uint64_t>(cases(40, 100));
   int held = 0, by_members = 0, all = 0;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+  for (std::uint64_t seed = 1; seed <= truths; ++seed) {
     const Linear model(seed);
     const Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(40));
     std::vector<std::vector<double>> features;
@@ -42,10 +44,11 @@ TEST(PosteriorSlow, IntervalsHoldPlantedTruths) {
   EXPECT_LE(by_members, 0.99 * all);
 }
 
-// Two hundred truths, each by 24 answers of the model.
+// Two hundred truths (of all cases), each by 24 answers of the model.
 TEST(PosteriorSlow, FewSamplesHoldPlantedTruths) {
+  const auto truths = static_cast<std::uint64_t>(cases(70, 200));
   int held = 0, all = 0;
-  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+  for (std::uint64_t seed = 1; seed <= truths; ++seed) {
     const Linear model(seed);
     const Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(24));
     std::vector<std::vector<double>> features;

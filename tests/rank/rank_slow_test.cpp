@@ -30,7 +30,7 @@ TEST(Rank, TheLuckOfFewSkinsDoesNotOrder) {
 // and none is the best. Of an array there is no arrangement: its haze has no ±.
 TEST(Rank, ArrangementsOfOneRoughnessAreNotToldApartByTheirHaze) {
   std::vector<Design> designs;
-  for (const int seed : {1, 101, 201}) {
+  for (const int seed : {1, 101}) {
     Design d = sample("flat");
     RandomRough rough;
     rough.rms = 60e-9, rough.roll_off = 6e-6, rough.seed = seed;
