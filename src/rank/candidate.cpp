@@ -149,13 +149,6 @@ void Candidate::step() {
   const bool believed = !scene_.finger.belief.empty();
   Fidelity few = model_cost(scene_.finger, fidelity_of(design_)).fidelity;
   few.threads = options_.threads;
-  if (!options_.felt()) {  // no finger moves a look
-    const std::size_t steps =
-        believed ? member_weights().size() : finger_steps(scene_.finger).size();
-    const std::vector<double> unmoved(static_cast<std::size_t>(few.skins), 0.0);
-    steps_.assign(options_.criteria.size(), StepSamples(steps, unmoved));
-    return;
-  }
   const auto moved = [&](const std::function<void(Scene&)>& move) {
     Scene scene = scene_;
     move(scene);

@@ -44,6 +44,8 @@ struct RankOptions {
 
   // Whether a finger has to press for some criterion; a look needs none.
   bool felt() const;
+  // Whether the finger's fitted numbers are moved: what no finger touches has none of them.
+  bool moves_finger() const { return parameters && felt(); }
   bool scored() const { return criteria.size() == 1 || !weights.empty(); }
 };
 

@@ -32,7 +32,7 @@ class StateRanker {
   // Everyone gets a batch; then only neighbours in an order whose difference is open.
   StateRanking run() {
     for (Candidate& c : candidates_) c.extend();
-    if (options_.parameters) step();
+    if (options_.moves_finger()) step();
     for (std::ptrdiff_t said = 0;;) {
       score();
       const std::vector<bool> open = open_candidates();
@@ -42,7 +42,7 @@ class StateRanker {
         note(fmt::format("{} of {} candidates still open", still, open.size()));
       said = still;
     }
-    if (options_.parameters) {  // more skins make nothing of it surer
+    if (options_.moves_finger()) {  // more skins make nothing of it surer
       for (Board& board : boards_) add_steps(board);
     }
     return result();
@@ -110,8 +110,8 @@ class StateRanker {
     const double mean = mean_estimate(x.samples(criterion)).value;
     const MetricExpression& e = options_.criteria[criterion].expression;
     const bool sure = is_spread(e.summary) || keeps_sign(e.summary, e.metric);
-    return sure || !options_.parameters ? std::abs(mean)
-                                        : std::hypot(mean, step_error(x.steps(criterion)));
+    return sure || !options_.moves_finger() ? std::abs(mean)
+                                            : std::hypot(mean, step_error(x.steps(criterion)));
   }
 
   // One board a criterion, and the score's in front where there is one of several.
@@ -188,7 +188,7 @@ class StateRanker {
     for (std::size_t c = 0; c < scale.size(); ++c) {
       out.push_back(criterion_board(scale, c));
       fill(out.back());
-      if (options_.parameters) add_steps(out.back());
+      if (options_.moves_finger()) add_steps(out.back());
     }
     return out;
   }
@@ -238,7 +238,7 @@ class StateRanker {
     for (std::size_t c = 0; c < options_.criteria.size(); ++c) {
       std::vector<std::vector<double>> samples;
       for (const Candidate& x : candidates_) samples.push_back(x.samples(c));
-      const StepSamples steps = options_.parameters ? candidates_[i].steps(c) : StepSamples{};
+      const StepSamples steps = options_.moves_finger() ? candidates_[i].steps(c) : StepSamples{};
       r.metrics.push_back(interval_of(samples[i], steps).moved(unmet(samples, i)));
     }
     return r;
@@ -515,7 +515,7 @@ Ranking ranking_of(const std::vector<Regions>& named, const RankOptions& options
         unknown +
         (pin ? "" : "; [finger] base = \"fingers/reference.toml\" has it of the shipped finger"));
   if (!options.any_conditions) require_same_conditions(out.conditions);
-  if (options.parameters) plan_steps(candidates, out);
+  if (options.moves_finger()) plan_steps(candidates, out);
   if (pin && options.states.size() > 1)
     throw InputError(
         fmt::format("\"{}\" stands in place of the finger and has no states: give one "

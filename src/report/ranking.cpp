@@ -55,12 +55,15 @@ std::string metric_cell(const Criterion& c, const Interval& i) {
 }
 
 // One score: who leads by how much.
+// What each design meets more of where the order is open.
+const char* met(const RankOptions& options) { return options.felt() ? "skins" : "arrangements"; }
+
 std::vector<std::string> score_head(const RankOptions& options) {
   std::vector<std::string> head{"rank", "design"};
   for (const Criterion& c : options.criteria) head.push_back(criterion_head(c));
   head.push_back("ahead of the next, %");
-  if (options.parameters) head.push_back("model part");
-  for (const char* name : {"p(ahead)", "p(best)", "skins"}) head.push_back(name);
+  if (options.moves_finger()) head.push_back("model part");
+  for (const char* name : {"p(ahead)", "p(best)", met(options)}) head.push_back(name);
   return head;
 }
 
@@ -73,7 +76,7 @@ std::vector<std::string> score_row(const std::string& name, const RankOptions& o
   row.push_back(last ? std::string("-")
                      : fmt::format("{:.1f} [{:.1f}, {:.1f}]", 100 * ahead.value, 100 * ahead.low,
                                    100 * ahead.high));
-  if (options.parameters)
+  if (options.moves_finger())
     row.push_back(
         last ? std::string("-")
              : fmt::format("±{:.1f}", 100 * normal_quantile(0.975) * ahead.parameters.value_or(0)));
@@ -105,7 +108,7 @@ std::string dominance_tables(const std::vector<std::string>& names, const RankOp
     rows[0].push_back(criterion_head(c));
     rows[0].push_back("p(best)");
   }
-  rows[0].push_back("skins");
+  rows[0].push_back(met(options));
   for (const RankedCandidate& r : state.candidates) {
     std::vector<std::string>& row = rows.emplace_back();
     row = {fmt::format("{:>3}", r.rank), names[r.index]};
@@ -142,13 +145,14 @@ std::string end_text(const std::vector<std::string>& names, const RankOptions& o
     std::string both = fmt::format("{} and {}", names[pair.first], names[pair.second]);
     if (!options.scored()) both += fmt::format(" in {}", options.criteria[pair.criterion].text());
     const int skins = std::min(skins_of(state, pair.first), skins_of(state, pair.second));
-    (options.parameters && skins < options.max_skins ? unknown : spent).push_back(std::move(both));
+    (options.moves_finger() && skins < options.max_skins ? unknown : spent)
+        .push_back(std::move(both));
   }
   std::string out;
   if (!spent.empty())
-    out = fmt::format(
-        "the budget of {} skins per design (--max-skins) is spent with the order open: {}",
-        options.max_skins, join_names(spent, "; "));
+    out =
+        fmt::format("the budget of {} {} per design (--max-skins) is spent with the order open: {}",
+                    options.max_skins, met(options), join_names(spent, "; "));
   if (!unknown.empty())
     out += fmt::format(
         "{}more skins would not settle what is not known of finger and model, which leaves open: "
@@ -168,7 +172,8 @@ std::string state_table(const std::vector<std::string>& names, const RankOptions
   } else {
     out += dominance_tables(names, options, state);
   }
-  out += fmt::format("{}; {} patches of skin tried", end_text(names, options, state), state.skins);
+  out += fmt::format("{}; {} {} tried", end_text(names, options, state), state.skins,
+                     options.felt() ? "patches of skin" : met(options));
   if (state.skins < state.equal_skins)
     out += fmt::format(" (more where two designs are close; {} with as many for every design)",
                        state.equal_skins);
@@ -272,12 +277,21 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
         "Better: ahead in a criterion and behind in none, as far as the intervals tell; open: no "
         "difference is told from none\n";
   for (const std::string& note : ranking.notes) out += note + "\n";
-  if (!options.parameters)
+  if (options.felt() && !options.parameters)
     out += "what the fit of the finger leaves open is in no interval and no probability\n";
   int fewest = std::numeric_limits<int>::max();
   for (const StateRanking& state : ranking.states) {
     for (const RankedCandidate& r : state.candidates) fewest = std::min(fewest, r.skins);
   }
+  const std::string seconds =
+      ranking.seconds ? fmt::format(", {:.1f} s", *ranking.seconds) : std::string();
+  if (!options.felt())
+    return out + fmt::format(
+                     "what is ranked is seen and not felt: neither the finger nor belief about it "
+                     "is in it. ± and [ ] are 95 % intervals over arrangements of rough surfaces "
+                     "({} of each at least); an array has one, and no ±; = marks a tie with the "
+                     "next. {} arrangements in all{}\n",
+                     fewest, ranking.skins, seconds);
   return out +
          fmt::format(
              "all designs met the same skins ({} at least): trust the order, its leads and "
@@ -286,8 +300,7 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
              "designs are alike: papilla evaluate "
              "gives values. ± and [ ] are 95 % intervals over skins; = "
              "marks a tie with the next. {} patches of skin in all{}\n",
-             fewest, ranking.skins,
-             ranking.seconds ? fmt::format(", {:.1f} s", *ranking.seconds) : std::string());
+             fewest, ranking.skins, seconds);
 }
 
 std::string ranking_json(const std::vector<std::string>& names, const RankOptions& options,
@@ -315,6 +328,7 @@ std::string ranking_json(const std::vector<std::string>& names, const RankOption
   }
   Json out{{"schema", 1},
            {"by", by},
+           {"felt", options.felt()},
            {"weights", options.weights},
            {"scored", options.scored()},
            {"conditions_differ", conditions},

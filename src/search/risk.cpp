@@ -51,12 +51,14 @@ double apply_risk(const Risk& risk, bool higher_is_better, const std::vector<dou
                   const std::vector<double>& weights) {
   PAPILLA_CHECK(!values.empty() && values.size() == weights.size(), "one weight per value");
   const double sign = higher_is_better ? 1 : -1;  // from here on, low is bad
+  // In the sign that it was given in: a haze of 0 is 0, not -0.
+  const auto as_given = [&](double v) { return higher_is_better ? v : 0 - v; };
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   double mean = 0;
   for (std::size_t i = 0; i < values.size(); ++i) mean += sign * values[i] * weights[i] / total;
   switch (risk.kind) {
     case Risk::Kind::Mean:
-      return sign * mean;
+      return as_given(mean);
     case Risk::Kind::MeanStd: {
       double variance = 0;
       for (std::size_t i = 0; i < values.size(); ++i) {
@@ -64,14 +66,14 @@ double apply_risk(const Risk& risk, bool higher_is_better, const std::vector<dou
         variance += d * d * weights[i] / total;
       }
       // Eq. search.4
-      return sign * (mean - risk.parameter * std::sqrt(variance));
+      return as_given(mean - risk.parameter * std::sqrt(variance));
     }
     case Risk::Kind::Worst: {
       double worst = kInfinity;  // Eq. search.6
       for (std::size_t i = 0; i < values.size(); ++i) {
         if (weights[i] > 0) worst = std::min(worst, sign * values[i]);
       }
-      return sign * worst;
+      return as_given(worst);
     }
     case Risk::Kind::Cvar: {
       // Eq. search.5: mean over the worst share.
@@ -86,10 +88,10 @@ double apply_risk(const Risk& risk, bool higher_is_better, const std::vector<dou
         sum += share * sign * values[i];
         left -= share;
       }
-      return sign * sum / (risk.parameter - left);
+      return as_given(sum / (risk.parameter - left));
     }
   }
-  return sign * mean;
+  return as_given(mean);
 }
 
 ScatterQuadratic::ScatterQuadratic(double at_nominal, const std::vector<double>& lower,

@@ -77,6 +77,28 @@ TEST(RankingReport, ForPeopleHasEachNumberUnderItsHead) {
   EXPECT_NE(table.find("42 patches of skin in all, 6.5 s"), std::string::npos);
 }
 
+// A look takes no finger: neither its belief nor patches of its skin are spoken of.
+TEST(RankingReport, OfLooksSpeaksOfNoFinger) {
+  Ranked r;
+  r.options.criteria = parse_criteria("haze:low");
+  r.options.weights.clear();
+  r.ranking.directions = 0;
+  for (RankedCandidate& c : r.ranking.states[0].candidates) c.metrics = {{0.1, 0.09, 0.11}};
+  const std::string table = ranking_table(r.names, r.options, r.ranking);
+  using Cells = std::vector<std::string>;
+  EXPECT_EQ(cells(split(table, '\n')[1]),
+            (Cells{"rank", "design", "mean(haze):low %", "ahead of the next, %", "p(ahead)",
+                   "p(best)", "arrangements"}));
+  EXPECT_NE(table.find("the order is known; 42 arrangements tried"), std::string::npos) << table;
+  EXPECT_NE(table.find("neither the finger nor belief about it is in it"), std::string::npos)
+      << table;
+  for (const char* words : {"skin", "parameters", "fit of the finger"})
+    EXPECT_EQ(table.find(words), std::string::npos) << words << " in " << table;
+  const auto json = nlohmann::json::parse(ranking_json(r.names, r.options, r.ranking));
+  EXPECT_EQ(json["felt"], false);
+  EXPECT_TRUE(json["parameters"].is_null());
+}
+
 TEST(RankingReport, ForProgramsIsInSi) {
   const Ranked r;
   const auto json = nlohmann::json::parse(ranking_json(r.names, r.options, r.ranking));

@@ -35,6 +35,8 @@ TEST(Risk, HasItsClosedForms) {
   EXPECT_DOUBLE_EQ(apply_risk(parse_risk("cvar 50 %"), true, values, weights), 1.5);
   EXPECT_DOUBLE_EQ(apply_risk(parse_risk("cvar 37.5 %"), false, values, weights),
                    (4 + 0.5 * 3) / 1.5);
+  for (const char* risk : {"", "worst", "mean - 2 std", "cvar 50 %"})
+    EXPECT_FALSE(std::signbit(apply_risk(parse_risk(risk), false, {0, 0}, {1, 1}))) << risk;
   EXPECT_THROW(parse_risk("mean - two std"), InputError);
   EXPECT_THROW(parse_risk("cvar 0 %"), InputError);
 }

@@ -1,5 +1,7 @@
 // The page of `papilla rank`.
 const ranking = data.ranking;
+// What each design meets more of where the order is open.
+const met = ranking.felt ? 'skins' : 'arrangements';
 const tints = colours.concat(dark ? ['#4fc4c4', '#e081b4'] : ['#1b8585', '#b0467d']);
 // A candidate keeps its colour in every chart and state.
 const tint = (c) => tints[c.index % tints.length];
@@ -41,7 +43,7 @@ function showScore(list) {
   rowsChart('score', list, { data: list.map((c) => c.score.value), interval: list.map((c) => [c.score.low, c.score.high]), text: list.map((c) => `${round(c.score.value)} [${round(c.score.low)}, ${round(c.score.high)}]`) }, 'score');
   rowsChart('best', list, { data: list.map((c) => 100 * c.p_best), text: list.map((c) => likely(c.p_best)) }, 'probability of being best [%]', { min: 0, max: 100 });
   const columns = criteriaColumns(list);
-  const head = ['place', 'design'].concat(columns.head, ['ahead of the next [%]', 'p(ahead)', 'p(best)', 'skins']);
+  const head = ['place', 'design'].concat(columns.head, ['ahead of the next [%]', 'p(ahead)', 'p(best)', met]);
   table($('places'), head, list.map((c, i) => [c.rank, c.name]
     .concat(ranking.criteria.map((k, m) => columns.value(c, k, m)))
     .concat(i + 1 < list.length ? [`${percent(c.ahead_of_next.value)} [${percent(c.ahead_of_next.low)}, ${percent(c.ahead_of_next.high)}]` + (c.tied_with_next ? ': tie' : ''), likely(c.p_ahead)] : ['–', '–'])
@@ -51,7 +53,7 @@ function showScore(list) {
 function showDominance(list) {
   $('scored').style.display = $('leads').style.display = 'none';
   const columns = criteriaColumns(list);
-  const head = ['place', 'design'].concat(ranking.criteria.flatMap((k, m) => [columns.head[m], 'p(best)']), ['skins']);
+  const head = ['place', 'design'].concat(ranking.criteria.flatMap((k, m) => [columns.head[m], 'p(best)']), [met]);
   table($('places'), head, list.map((c) => [c.rank, c.name].concat(ranking.criteria.flatMap((k, m) => [columns.value(c, k, m), likely(c.p_best_by[k.metric])]), [c.skins])), head.map((h, i) => i).slice(2));
   table($('pairs'), ['row against column'].concat(list.map((c) => c.name)), list.map((c) => [c.name].concat(list.map((o) => o === c ? '–' : c.over[o.index]))));
 }
@@ -106,8 +108,9 @@ function showSure(state) {
       text: list.map((c) => `${percent(c.ahead_of_next.value)} % [${percent(c.ahead_of_next.low)}, ${percent(c.ahead_of_next.high)}], p(ahead) ${likely(c.p_ahead)}` + (c.tied_with_next ? ': tie' : '')),
     }, 'lead over the next [% of the score]');
   }
-  $('skins').textContent = `${whole} ${state.skins} patches of skin were tried` + (state.skins < state.equal_skins ? `, more where two candidates are close; ${state.equal_skins} with as many for every candidate.` : '.')
-    + (!ranking.parameters ? ' What is not known of finger and model is in no interval and no probability.'
+  $('skins').textContent = `${whole} ${state.skins} ${ranking.felt ? 'patches of skin' : 'arrangements'} were tried` + (state.skins < state.equal_skins ? `, more where two candidates are close; ${state.equal_skins} with as many for every candidate.` : '.')
+    + (!ranking.felt ? ' What is ranked is seen and not felt: neither the finger nor belief about it is in it.'
+      : !ranking.parameters ? ' What is not known of finger and model is in no interval and no probability.'
       : ' Every interval and probability holds the model part, what ' + (ranking.parameters.members ? 'belief about finger and model' : 'the fit of the finger') + ' leaves open, which moves candidates together as far as they are alike' + (ranking.scored ? ': of the leads ' + list.map((c) => '±' + percent(1.96 * c.ahead_of_next.parameters)).join(', ') + ' %.' : '.'));
 }
 
