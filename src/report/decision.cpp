@@ -169,10 +169,13 @@ std::string parameter_text(const ResultFiles& f, const char* word) {
 constexpr double kAlike = 0.01;
 constexpr double kSure = 0.95;  // p(best) that asks for no measurement
 
+bool matters(const Decision& d, double loss) {
+  return loss >= kAlike * (d.rule.kind == PickRule::Kind::Knee ? 1 : std::abs(d.best_worth));
+}
+
 bool overturns(const Decision& d, const Reversal& r) {
   if (r.best == d.best) return false;
-  const double scale = d.rule.kind == PickRule::Kind::Knee ? 1 : std::abs(d.best_worth);
-  return r.loss <= 0 || r.loss >= kAlike * scale;  // no loss: chosen for its limits
+  return r.loss <= 0 || matters(d, r.loss);  // no loss: chosen for its limits
 }
 
 // Each hypothesis and the parameter that another design is better under.
@@ -361,16 +364,16 @@ KnownWorths known_worths(const MemberWorth& worth, std::size_t design) {
 }
 
 // By members of belief alone, as what skins leave open is a part of ±.
-bool has_worst_over_belief(const ResultFiles& f) {
+bool has_worst_over_belief(const ResultFiles& f, std::size_t design) {
   const Decision& d = decision_of(f);
   return d.made() && d.rule.kind == PickRule::Kind::Worst && f.problem.judged_at_amplitude() &&
-         f.result.best < d.designs.size() && known_worths(d.worth, f.result.best).all > 0;
+         design < d.designs.size() && known_worths(d.worth, design).all > 0;
 }
 
 // How probable it is that people notice the worst modulation. Eq. search.26
-std::string felt_sentence(const ResultFiles& f) {
-  if (!has_worst_over_belief(f)) return {};
-  const KnownWorths known = known_worths(decision_of(f).worth, f.result.best);
+std::string felt_sentence(const ResultFiles& f, std::size_t shown) {
+  if (!has_worst_over_belief(f, shown)) return {};
+  const KnownWorths known = known_worths(decision_of(f).worth, shown);
   double felt = 0;
   for (std::size_t m = 0; m < known.worths.size(); ++m)
     felt += known.worths[m] >= kNoticed ? known.weights[m] : 0;
@@ -398,7 +401,7 @@ std::string settled_sentence(const ResultFiles& f) {
 }  // namespace
 
 std::string worst_over_belief(const ResultFiles& f) {
-  if (!has_worst_over_belief(f)) return {};
+  if (!has_worst_over_belief(f, f.result.best)) return {};
   constexpr double kShare = 0.95;
   const KnownWorths known = known_worths(decision_of(f).worth, f.result.best);
   double mean = 0;
@@ -418,7 +421,9 @@ std::string worst_over_belief(const ResultFiles& f) {
 
 std::optional<std::size_t> design_to_measure(const ResultFiles& f) {
   const Decision& d = decision_of(f);
-  if (!d.made() || d.designs.size() < 2 || d.designs[d.best].p_best > kSure) return std::nullopt;
+  if (!d.made() || d.designs.size() < 2) return std::nullopt;
+  const Prospect& chosen = d.designs[d.best];
+  if (chosen.p_best > kSure || !matters(d, chosen.regret)) return std::nullopt;
   return rival_of(d);
 }
 
@@ -447,22 +452,29 @@ std::string unsure_limits_text(const ResultFiles& f) {
 std::vector<std::string> decision_grounds(const ResultFiles& f) {
   const Decision& d = decision_of(f);
   if (!d.made()) return {};
-  const std::size_t shown = f.result.best;
+  const auto place = recommended_place(f);
+  if (!place || *place >= d.designs.size())
+    return {
+        "How sure that is was not judged: only designs of the front are judged at the members of "
+        "belief, and the surface is none of them."};
+  const std::size_t shown = *place;
+  const bool textured = facts(f.result.finalists[shown].design.texture).relief.present;
   std::string sure = fmt::format(
-      "How sure: of the {} designs of the front {} is the best in {} with probability {}, by this "
+      "How sure: of the {} designs of the front {}{} is the best in {} with probability {}, by "
+      "this "
       "model, over the {} members of belief (finger and model as the measurements leave them open) "
       "and over skins, without errors of the grid and of the 3-D field. On average over the "
       "members "
       "it has {}",
       stated(count_number("designs of the front", d.designs.size(), {Stage::Confirm}),
              fmt::format("{}", d.designs.size())),
-      name_of(f, shown), worth_name(f), p_best_text(f, shown), members_text(f),
-      behind_text(f, shown));
+      name_of(f, shown), textured ? "" : ", the surface that is recommended,", worth_name(f),
+      p_best_text(f, shown), members_text(f), behind_text(f, shown));
   const std::string unanswered = unanswered_sentence(f);
   if (shown != d.best)
     return {sure + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f)) + unanswered};
-  std::vector<std::string> out{sure + "." + unanswered + felt_sentence(f) + settled_sentence(f) +
-                               others_sentence(f) + limits_sentence(f)};
+  std::vector<std::string> out{sure + "." + unanswered + felt_sentence(f, shown) +
+                               settled_sentence(f) + others_sentence(f) + limits_sentence(f)};
   if (d.designs.size() > 1) out.push_back("What would overturn it: " + overturned_text(f) + ".");
   if (std::string measure = measure_sentence(f); !measure.empty()) out.push_back(measure);
   return out;
@@ -477,11 +489,12 @@ std::string decision_text(const ResultFiles& f) {
       "Each design of the front at {} members of belief about finger and model (as good as {} "
       "equal ones), judged in {}{}. Regret: what is lost on average against the best design at "
       "each "
-      "member. `best/` has {}.{}\n\n",
+      "member. {} has {}.{}\n\n",
       members_text(f),
       stated(bare_number("effective members of belief", d.effective_members, "", kOfBelief, {}),
              fmt::format("{:.3g}", d.effective_members)),
-      worth_name(f), ranges_text(f), chosen_how(f), unanswered_sentence(f));
+      worth_name(f), ranges_text(f), f.result.finalists[d.best].folder, chosen_how(f),
+      unanswered_sentence(f));
   std::vector<std::string> head{"design", "p(best)", "expected regret"};
   for (const StudyObjective& o : f.problem.objectives()) head.push_back("p(best) in " + o.name);
   const bool limited = !f.study.constraints.empty();

@@ -14,8 +14,8 @@ namespace papilla::report {
 
 // "How sure: of the 9 designs of the front design 06 is the best in the worst modulation with
 // probability 71 %, ...", "What would
-// overturn it: ...", "To be surer, measure ...": a line each. Of the design that the decision is
-// for; none without a decision.
+// overturn it: ...", "To be surer, measure ...": a line each. Of what is recommended; none without
+// a decision, and the first alone of what the decision is not for.
 std::vector<std::string> decision_grounds(const ResultFiles& files);
 // "0.153 on average over belief (0.029 to 0.398 on 95 % of it)": the worst modulation of what is
 // shown at the members, where that is what belief decides by; "" otherwise. Eq. search.26
@@ -27,7 +27,7 @@ std::string of_the_sure_text(const ResultFiles& files);
 // where it does, or there are none.
 std::string unsure_limits_text(const ResultFiles& files);
 // The design whose measurement beside that of the chosen one settles most; nothing where the choice
-// is sure.
+// is sure, or costs less than a per cent of what the best design of each member is worth.
 std::optional<std::size_t> design_to_measure(const ResultFiles& files);
 // "## Which of them, by belief" of summary.md: each design's probabilities, and what would overturn
 // the choice; why there is none, where there is none.

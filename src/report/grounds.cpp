@@ -388,8 +388,9 @@ std::string unfelt_skin_text(const ResultFiles& f) {
 
 std::vector<std::string> grounds(const ResultFiles& f) {
   std::vector<std::string> out;
-  if (search::advice_of(f.problem, f.result) == Advice::Texture) {
-    out = decision_grounds(f);
+  const Advice advice = search::advice_of(f.problem, f.result);
+  if (advice != Advice::Nothing) out = decision_grounds(f);
+  if (advice == Advice::Texture) {
     if (std::string other = other_rule_text(f); !other.empty()) out.push_back(std::move(other));
   }
   if (std::string film = film_text(f); !film.empty()) out.push_back(std::move(film));

@@ -303,14 +303,21 @@ Design built_design(const ResultFiles& f) {
   return f.result.build ? f.result.build->made.design : recommended_of(f).design;
 }
 
-// Where the design is among those whose order was checked.
-std::optional<std::size_t> checked_place(const ResultFiles& f) {
+std::optional<std::size_t> recommended_place(const ResultFiles& f) {
   const FinalDesign design = recommended_of(f);
+  if (design.unit.empty()) return std::nullopt;  // outside the space
+  // The surface of a textured design without its texture may be one of the finalists too.
+  const Point unit =
+      design.flat ? f.problem.space().flattened(design.unit).value_or(design.unit) : design.unit;
   for (std::size_t i = 0; i < f.result.finalists.size(); ++i) {
-    if (f.result.finalists[i].unit == design.unit && !design.flat && f.result.stability.judged(i))
-      return i;
+    if (f.result.finalists[i].unit == unit) return i;
   }
   return std::nullopt;
+}
+
+std::optional<std::size_t> checked_place(const ResultFiles& f) {
+  const auto place = recommended_place(f);
+  return place && f.result.stability.judged(*place) ? place : std::nullopt;
 }
 
 std::string recommendation(const ResultFiles& f) {

@@ -18,7 +18,9 @@ std::string recommendation(const ResultFiles& files);
 FinalDesign recommended_of(const ResultFiles& files);
 // That design on the grid of the fab: values as the sheet has them, in every digit.
 Design built_design(const ResultFiles& files);
-// Where it is among the finalists whose order was checked.
+// Where the design that it is about is among the finalists: a surface without texture may be none
+// of them. Where its order was checked too.
+std::optional<std::size_t> recommended_place(const ResultFiles& files);
 std::optional<std::size_t> checked_place(const ResultFiles& files);
 // How many designs of the grid were judged for it.
 std::string judged_on_grid(const BuiltDesign& build);

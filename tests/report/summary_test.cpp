@@ -524,6 +524,24 @@ TEST(BuildSheet, ADirectVoltageHasNoFrequency) {
   EXPECT_EQ(as_read(run_json(run.files()))["beside"].back()["text"], "200 V, a direct voltage");
 }
 
+// A flat surface that is recommended for the best design is a finalist of its own here: what was
+// tried on that was tried on it.
+TEST(BuildSheet, OfAFlatSurfaceHasTheChecksOfTheFinalistThatItIs) {
+  Searched run;
+  run.result.flat = score(0.49, 0.29, 0.2);
+  run.result.stability.first_choice = 1;
+  const auto said = [&] { return as_read(join_names(grounds(run.files()), "\n")); };
+  EXPECT_NE(said().find("which were not tried on it"), std::string::npos) << said();
+  EXPECT_TRUE(as_read(run_json(run.files()))["stable"].is_null());
+  FinalDesign& flat = run.result.finalists[1];
+  flat.unit = *run.problem.space().flattened(run.result.finalists[0].unit);
+  flat.design = run.problem.space().design(flat.unit);
+  run.result.stability.variants[1].values[1] = {0.45, 0.28};
+  EXPECT_EQ(said().find("which were not tried on it"), std::string::npos) << said();
+  EXPECT_NE(said().find("mean(modulation) 0.450 to 0.450"), std::string::npos) << said();
+  EXPECT_EQ(as_read(run_json(run.files()))["stable"], false);
+}
+
 TEST(BuildSheet, TheStateThatWasNotTriedIsNotTheOneThatWas) {
   Study study = holes();
   study.design.finger.state = FingerState::Natural;
