@@ -91,9 +91,13 @@ Json compared_json(const ResultFiles& f) {
   if (f.problem.judged_at_amplitude()) names.emplace_back("worst modulation");
   rows.push_back(
       compared_row(f, name + ", recommended", "what is recommended", recommended.confirmed));
-  if (r.flat && !recommended.flat)
+  const bool textured = facts(recommended.design.texture).relief.present;
+  if (r.flat && textured)
     rows.push_back(
         compared_row(f, "the same without texture", "the same surface without texture", *r.flat));
+  if (r.flat_before && search::advice_of(f.problem, r) == Advice::Finish)
+    rows.push_back(compared_row(f, "flat, finish and drive of the study",
+                                "the surface of the study without texture", *r.flat_before));
   if (recommended.flat)
     rows.push_back(compared_row(f, design_name(r.finalists[r.best].folder) + ", with its texture",
                                 "the best design", r.finalists[r.best].confirmed));

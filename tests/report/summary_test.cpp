@@ -283,6 +283,11 @@ TEST(BuildSheet, OfAFlatSurfaceIsFlatEverywhere) {
   const auto json = as_read(run_json(run.files()));
   EXPECT_EQ(json["textured"], false);
   EXPECT_TRUE(json["design"].is_null());
+  std::vector<std::string> beside;
+  for (const auto& row : json["compared"]["rows"]) beside.push_back(row["surface"]);
+  EXPECT_EQ(beside, (std::vector<std::string>{"without texture, recommended",
+                                              "flat, finish and drive of the study",
+                                              "design 01, with its texture"}));
   for (const auto& row : json["sheet"])
     EXPECT_EQ(row["name"].get<std::string>().find("texture."), std::string::npos);
   EXPECT_NE(
