@@ -1,5 +1,6 @@
 # papilla_unity(TARGET FOLDER...): rooms that do not compute in loops are compiled as one file each, so that what they all
-# include is read once. Physics and the model keep their files: there one changes at a time, and is optimised hard.
+# include is read once; the optimisers too, whose files make the same matrices. Physics and the model keep their files: there
+# one changes at a time, and is optimised hard.
 function(papilla_unity name)
   if(NOT PAPILLA_UNITY)
     return()

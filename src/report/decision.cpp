@@ -461,11 +461,9 @@ std::vector<std::string> decision_grounds(const ResultFiles& f) {
   const bool textured = facts(f.result.finalists[shown].design.texture).relief.present;
   std::string sure = fmt::format(
       "How sure: of the {} designs of the front {}{} is the best in {} with probability {}, by "
-      "this "
-      "model, over the {} members of belief (finger and model as the measurements leave them open) "
-      "and over skins, without errors of the grid and of the 3-D field. On average over the "
-      "members "
-      "it has {}",
+      "this model, over the {} members of belief (finger and model as the measurements leave them "
+      "open) and over skins, without errors of the grid and of the 3-D field. On average over the "
+      "members it has {}",
       stated(count_number("designs of the front", d.designs.size(), {Stage::Confirm}),
              fmt::format("{}", d.designs.size())),
       name_of(f, shown), textured ? "" : ", the surface that is recommended,", worth_name(f),

@@ -54,10 +54,10 @@ std::string metric_cell(const Criterion& c, const Interval& i) {
   return with_error(i.value * scale, (i.high - i.low) / 2 * scale);
 }
 
-// One score: who leads by how much.
 // What each design meets more of where the order is open.
 const char* met(const RankOptions& options) { return options.felt() ? "skins" : "arrangements"; }
 
+// One score: who leads by how much.
 std::vector<std::string> score_head(const RankOptions& options) {
   std::vector<std::string> head{"rank", "design"};
   for (const Criterion& c : options.criteria) head.push_back(criterion_head(c));

@@ -19,8 +19,9 @@ FinalDesign recommended_of(const ResultFiles& files);
 // That design on the grid of the fab: values as the sheet has them, in every digit.
 Design built_design(const ResultFiles& files);
 // Where the design that it is about is among the finalists: a surface without texture may be none
-// of them. Where its order was checked too.
+// of them.
 std::optional<std::size_t> recommended_place(const ResultFiles& files);
+// The same, of a design whose order was checked.
 std::optional<std::size_t> checked_place(const ResultFiles& files);
 // How many designs of the grid were judged for it.
 std::string judged_on_grid(const BuiltDesign& build);
