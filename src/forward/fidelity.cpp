@@ -9,12 +9,12 @@ Fidelity fidelity_level(const std::string& name) {
   f.level = name;
   if (name == "search") {
     f.grid = 128;
-    f.skins = 12;
+    f.skins = 8;
     f.estimator = Estimator::Load;
     f.contact_tolerance = 1e-3;
     f.field_tolerance = 1e-2;
     f.coupling_tolerance = 1e-3;
-    f.equilibrium_skins = 2;
+    f.equilibrium_skins = 4;
     f.control_skins = 0;
     f.field_skins = 0;
     f.balance_nodes = 1;

@@ -3,15 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
+
 namespace papilla::forward {
 namespace {
 
+// What a skin leaves unknown of an exponent, in units of ln(load)^2: droplets bridge one gap and
+// not the next, the field fills all gaps alike (docs/theory/coupling.md).
+constexpr double kUnknownOfWater = 0.1, kUnknownOfField = 0.02;
+
 // The exponent of a force that is `before` on the dry gap and `after` under `load` times the
-// nominal one. 0 where it is none or changes its sign: the force then stays what it is.
-double exponent(double before, double after, double load) {
-  constexpr double kLargest = 4, kSame = 1e-9;
-  if (!(before * after > 0) || !(load > 0) || std::abs(load - 1) < kSame) return 0;
-  return std::clamp(std::log(after / before) / std::log(load), -kLargest, kLargest);
+// nominal one. unknown: of these skins; as much as it weighs beside what the load tells, the
+// exponent is shrunk towards 0, that the force stays what it is. So is one that is none or changes
+// its sign.
+double exponent(double before, double after, double load, double unknown) {
+  if (!(before * after > 0) || !(load > 0)) return 0;
+  const double closed = std::log(load);
+  return closed * std::log(after / before) / (square(closed) + unknown);
 }
 
 double sum_of(std::span<const AttractionSample> samples, PatchResult AttractionSample::*state,
@@ -21,43 +29,51 @@ double sum_of(std::span<const AttractionSample> samples, PatchResult AttractionS
   return sum;
 }
 
-// The lowest root of load = total(load), from 1 upwards; total rises.
+// Total load of a patch over the nominal one.
+double before_the_drive(const PatchResult& p) { return 1 + p.capillary_off / p.load; }
+double under_the_drive(const PatchResult& p) { return 1 + (p.capillary_on + p.pull) / p.load; }
+
+// The lowest root of load = total(load) from 1 on; total is bounded. Where it falls, as of water
+// that pushes, steps that swing around the root are halved.
 template <class Total>
-std::optional<double> settled_load(const Total& total) {
-  constexpr double kClosed = 1e3, kLeast = 1e-3, kExact = 1e-12;
+double settled_load(const Total& total) {
+  constexpr double kLeast = 1e-3, kExact = 1e-12;
   constexpr int kMost = 1000;
-  double load = 1;
-  for (int k = 0; k < kMost && load < kClosed; ++k) {
-    const double next = std::max(total(load), kLeast);
-    if (std::abs(next - load) <= kExact * next) return next;
-    load = next;
+  double load = 1, share = 1, before = 0;
+  for (int k = 0; k < kMost; ++k) {
+    const double step = std::max(total(load), kLeast) - load;
+    if (step * before < 0) share /= 2;
+    load += share * step;
+    before = step;
+    if (std::abs(step) <= kExact * load) break;
   }
-  return std::nullopt;
+  return load;
 }
 
 }  // namespace
 
-std::optional<double> AttractionLaw::load_off(double capillary) const {
-  return settled_load([&](double load) { return 1 + capillary * std::pow(load, capillary_off); });
+double AttractionLaw::load_off(double capillary) const {
+  return settled_load([&](double load) {
+    return 1 + capillary * std::pow(std::min(load, most_off), capillary_off);
+  });
 }
 
-std::optional<double> AttractionLaw::load_on(double capillary, double of_field) const {
+double AttractionLaw::load_on(double capillary, double of_field) const {
   return settled_load([&](double load) {
-    return 1 + capillary * std::pow(load, capillary_on) + of_field * std::pow(load, pull);
+    const double closed = std::min(load, most_on);
+    return 1 + capillary * std::pow(closed, capillary_on) + of_field * std::pow(closed, pull);
   });
 }
 
 void AttractionLaw::apply(PatchResult& patch) const {
   patch.status.note(status);
   if (!(patch.load > 0)) return;
-  const double water = patch.capillary_off / patch.load;
-  const std::optional<double> off = load_off(water), on = load_on(patch.capillary_on / patch.load,
-                                                                  patch.pull / patch.load);
-  if (!off) patch.status.note({Trouble::UndrivenPullIn, 0, ""});
-  if (!on) patch.status.note({Trouble::ClosedPullIn, 0, ""});
-  patch.capillary_off *= std::pow(off.value_or(1 + water), capillary_off);
-  patch.capillary_on *= std::pow(on.value_or(1), capillary_on);
-  patch.pull *= std::pow(on.value_or(1), pull);
+  const double off = std::min(load_off(patch.capillary_off / patch.load), most_off),
+               on = std::min(load_on(patch.capillary_on / patch.load, patch.pull / patch.load),
+                             most_on);
+  patch.capillary_off *= std::pow(off, capillary_off);
+  patch.capillary_on *= std::pow(on, capillary_on);
+  patch.pull *= std::pow(on, pull);
   patch.retention *= retention_off;
   patch.retention_on *= retention_on;
 }
@@ -66,7 +82,8 @@ AttractionLaw AttractionLaw::toward(const AttractionLaw& other, double share) co
   AttractionLaw out = *this;
   for (double AttractionLaw::*number :
        {&AttractionLaw::capillary_off, &AttractionLaw::capillary_on, &AttractionLaw::pull,
-        &AttractionLaw::retention_off, &AttractionLaw::retention_on})
+        &AttractionLaw::most_off, &AttractionLaw::most_on, &AttractionLaw::retention_off,
+        &AttractionLaw::retention_on})
     out.*number += share * (other.*number - out.*number);
   return out;
 }
@@ -89,15 +106,20 @@ AttractionLaw attraction_law(std::span<const AttractionSample> samples) {
   const auto dry = &AttractionSample::dry, settled = &AttractionSample::settled;
   const double load = sum(dry, &PatchResult::load);
   if (!(load > 0) || !law.status.sound()) return law;
+  for (const AttractionSample& s : samples) {
+    law.most_off = std::max(law.most_off, before_the_drive(s.settled));
+    law.most_on = std::max(law.most_on, under_the_drive(s.settled));
+  }
   const double off = 1 + sum(settled, &PatchResult::capillary_off) / load;
   const double on =
       1 + (sum(settled, &PatchResult::capillary_on) + sum(settled, &PatchResult::pull)) / load;
-  const auto grows = [&](double PatchResult::*force, double by) {
-    return exponent(sum(dry, force), sum(settled, force), by);
+  const auto grows = [&](double PatchResult::*force, double by, double unknown) {
+    return exponent(sum(dry, force), sum(settled, force), by,
+                    unknown / static_cast<double>(samples.size()));
   };
-  law.capillary_off = grows(&PatchResult::capillary_off, off);
-  law.capillary_on = grows(&PatchResult::capillary_on, on);
-  law.pull = grows(&PatchResult::pull, on);
+  law.capillary_off = grows(&PatchResult::capillary_off, off, kUnknownOfWater);
+  law.capillary_on = grows(&PatchResult::capillary_on, on, kUnknownOfWater);
+  law.pull = grows(&PatchResult::pull, on, kUnknownOfField);
   const auto factor = [&](double PatchResult::*value) {
     const double before = sum(dry, value);
     return before > 0 ? sum(settled, value) / before : 1;

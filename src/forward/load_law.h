@@ -19,16 +19,18 @@ struct AttractionSample {
   PatchResult dry, settled;
 };
 
-// Attractions as powers of the total load over the nominal one. Eq. coupling.14
+// Attractions as powers of the total load over the nominal one, up to the largest that was sampled:
+// beyond it they stay what they are there. Eq. coupling.14
 struct AttractionLaw {
   double capillary_off = 0, capillary_on = 0, pull = 0;  // exponents
+  double most_off = 1, most_on = 1;                      // total loads
   double retention_off = 1, retention_on = 1;            // factors
   ModelStatus status;  // of the first sample that has no equilibrium
 
   // Total load over the nominal one, by the attractions on the dry gap over the nominal load:
-  // before the drive, and under it; nothing: no equilibrium short of a closed gap.
-  std::optional<double> load_off(double capillary) const;
-  std::optional<double> load_on(double capillary, double pull) const;
+  // before the drive, and under it.
+  double load_off(double capillary) const;
+  double load_on(double capillary, double pull) const;
 
   // A share of the way to another law.
   AttractionLaw toward(const AttractionLaw& other, double share) const;

@@ -16,6 +16,7 @@
 #include "report/sheet.h"
 #include "report/tables.h"
 #include "report/unstable.h"
+#include "search/levels.h"
 
 namespace papilla::report {
 namespace {
@@ -142,13 +143,21 @@ std::string target_text(const ResultFiles& f, const FinalDesign& best) {
   return out + ".\n";
 }
 
+// Of one finger, of one choice of the model and of one step.
+std::string level_of_checks(const ResultFiles& f) {
+  const Fidelity level = stage_fidelity(f.problem, Stage::Stability);
+  return fmt::format("{} pixels, {} skins, common random numbers", level.grid, level.skins);
+}
+
 std::string sensitivity_text(const ResultFiles& f) {
   if (f.result.sensitivity.empty()) return {};
   const auto& objectives = f.problem.objectives();
   std::string out =
       "\n## What the best design is sensitive to\n\nEach continuous variable alone, by 5 % of "
       "its "
-      "range (128 pixels, 12 skins, common random numbers). Share: of the objective's variance "
+      "range (" +
+      level_of_checks(f) +
+      "). Share: of the objective's variance "
       "if every "
       "variable scattered so. Tolerance: how far it may be off before an objective worsens by 5 % "
       "or a limit is reached.\n\n| variable | step";
@@ -180,9 +189,9 @@ std::string stability_text(const ResultFiles& f) {
   std::string out =
       "\n## Does the order hold?\n\nEach design of the front on each finger alone, then on the "
       "first finger "
-      "with another state of its skin or one choice of the model changed (128 pixels, 12 skins, "
-      "common random numbers; " +
-      objectives.front().name + (objectives.size() > 1 ? ", " + objectives[1].name : "") +
+      "with another state of its skin or one choice of the model changed (" +
+      level_of_checks(f) + "; " + objectives.front().name +
+      (objectives.size() > 1 ? ", " + objectives[1].name : "") +
       "; * on the front of these designs: it keeps every limit, and none is better in all "
       "objectives by more than the error of their difference):\n\n|";
   for (std::size_t i = 0; i < judged; ++i)

@@ -78,10 +78,10 @@ bool apart(const Point& a, const Point& b) {
   return false;
 }
 
-// Of the designs that keep every limit and are unlike the chosen ones, the best in the first
-// objective: where belief decides, one design has no rivals.
+// Of the designs that keep every limit and are unlike the chosen ones, the best in each objective
+// in turn: where belief decides, one design has no rivals, nor have several that are alike in one.
 void add_rivals(const JudgedDesigns& below, std::vector<std::size_t>& chosen) {
-  while (chosen.size() < kLeastBelieved) {
+  for (std::size_t turn = 0; chosen.size() < kLeastBelieved; ++turn) {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < below.size(); ++i) {
       const Evaluation& e = below.evaluations[i];
@@ -89,7 +89,8 @@ void add_rivals(const JudgedDesigns& below, std::vector<std::size_t>& chosen) {
         return apart(e.unit, below.evaluations[c].unit);
       });
       if (!unlike || !e.outcome.feasible()) continue;
-      if (!best || e.outcome.objectives[0] < below.evaluations[*best].outcome.objectives[0])
+      const std::size_t k = turn % e.outcome.objectives.size();
+      if (!best || e.outcome.objectives[k] < below.evaluations[*best].outcome.objectives[k])
         best = i;
     }
     if (!best) return;

@@ -52,22 +52,16 @@ int search_grid(const StudyProblem& problem) {
   return grid;
 }
 
-// For one design on its own: one finger, one choice of the model, a small step.
-Fidelity check_fidelity(const Study& study) {
-  Fidelity f = fidelity_level("search");
-  f.seed = static_cast<std::uint64_t>(study.search.seed);
-  return f;
-}
-
-// The cheapest that ranks designs as well as other skins at the level above do: sixteen skins in
-// all, four per finger at least (results/bench/search_levels.csv). More designs for the same time
-// find more than surer numbers do (docs/theory/search.md).
+// The cheapest that ranks designs as well as other skins at the level above do: eight skins in all,
+// four per finger at least, four of them in equilibrium, as it is the load law that scatters
+// (docs/theory/search.md). More designs for the same time find more than surer numbers do.
 Fidelity search_fidelity(const StudyProblem& problem) {
   const Study& study = problem.study();
-  Fidelity f = check_fidelity(study);
+  Fidelity f = fidelity_level("search");
+  f.seed = static_cast<std::uint64_t>(study.search.seed);
   f.level = "steer";
   f.grid = search_grid(problem);
-  f.skins = std::max(4, 16 / std::max(1, static_cast<int>(study.population.size())));
+  f.skins = std::max(4, f.skins / std::max(1, static_cast<int>(study.population.size())));
   return f;
 }
 
@@ -88,6 +82,16 @@ Fidelity narrow_fidelity(const StudyProblem& problem) {
   f.first_skin = kNarrowSkins;
   f.skins *= 2;
   f.field_skins = 1;
+  return f;
+}
+
+// For one design on its own, one finger, one choice of the model, a small step: as between search
+// and confirmation, so that its numbers are near the confirmed ones.
+Fidelity check_fidelity(const StudyProblem& problem) {
+  Fidelity f = narrow_fidelity(problem);
+  f.level = "check";
+  f.first_skin = 0;
+  f.skins = fidelity_level("search").skins;
   return f;
 }
 
@@ -156,7 +160,7 @@ Fidelity full_fidelity(const StudyProblem& problem, Stage stage) {
     case Stage::Done:
       break;
   }
-  return check_fidelity(study);
+  return check_fidelity(problem);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ struct QuickLevel {
 // The first that has enough pixels on the smallest feature, else the last.
 constexpr std::array<QuickLevel, 3> kLevels{
     {{64, {0.69, 0.64, 0.83}}, {96, {0.77, 0.7, 0.85}}, {128, {0.84, 0.82, 0.94}}}};
-constexpr int kSkins = 6;
+constexpr int kSkins = 6, kEquilibria = 2;
 constexpr double kFewPixels = 3;  // of the smallest feature: its area is not its own below
 
 // One standard error (docs/theory/studio.md): of the ratio of two levels, relative to what the
@@ -83,6 +83,7 @@ Fidelity quick_fidelity(const Design& design) {
   out.seed = static_cast<std::uint64_t>(design.accuracy.seed);
   out.grid = quick_level(design).grid;
   out.skins = kSkins;
+  out.equilibrium_skins = kEquilibria;
   return out;
 }
 

@@ -363,34 +363,98 @@ TEST(LoadLaw, StandsForTheEquilibriumOfPatchesItWasNotMeasuredOn) {
   }
 }
 
-// Powers whose fixed points are known: T = T0 sqrt(L) and T = T0 L.
-TEST(LoadLaw, SolvesItsFixedPoint) {
-  AttractionLaw law;
-  law.pull = 0.5;
-  const double root = law.load_on(0, 0.6).value();
-  EXPECT_NEAR(std::sqrt(root), 0.3 + std::sqrt(1 + 0.09), 1e-9);
-  law.pull = 1;
-  EXPECT_NEAR(law.load_on(0, 0.6).value(), 2.5, 1e-8);
-  EXPECT_FALSE(law.load_on(0, 1.01));  // no equilibrium
-  EXPECT_NEAR(law.load_off(0.1).value(), 1.1, 1e-12);
+// Eq. coupling.14: an exponent is ln(after/before)/ln(L) where the load tells it, and none where
+// the load is hardly more than the nominal one; more skins tell more.
+TEST(LoadLaw, ShrinksAnExponentThatTheLoadDoesNotTell) {
+  // Water and pull that grow by these factors, beside a load of 1.
+  const auto law = [](double water, double water_by, double pull, double pull_by, int skins) {
+    AttractionSample s;
+    s.dry.load = s.settled.load = 1;
+    s.dry.capillary_off = s.dry.capillary_on = water, s.dry.pull = pull;
+    s.settled = s.dry;
+    s.settled.capillary_off *= water_by, s.settled.capillary_on *= water_by;
+    s.settled.pull *= pull_by;
+    const std::vector<AttractionSample> all(static_cast<std::size_t>(skins), s);
+    return attraction_law(all);
+  };
+  const auto shrunk = [](double by, double load, double unknown) {
+    return std::log(by) * std::log(load) / (square(std::log(load)) + unknown);
+  };
+  const AttractionLaw few = law(0.05, 1.3, 0.6, 1.2, 2);
+  EXPECT_NEAR(few.capillary_off, shrunk(1.3, 1 + 0.05 * 1.3, 0.1 / 2), 1e-12);
+  EXPECT_LT(few.capillary_off, 0.31);  // unshrunk 4.2
+  const double on = 1 + 0.05 * 1.3 + 0.6 * 1.2;
+  EXPECT_NEAR(few.capillary_on, shrunk(1.3, on, 0.1 / 2), 1e-12);
+  EXPECT_NEAR(few.pull, shrunk(1.2, on, 0.02 / 2), 1e-12);
+  const AttractionLaw many = law(0.05, 1.3, 0.6, 1.2, 1000);
+  EXPECT_NEAR(many.pull, std::log(1.2) / std::log(on), 1e-4);
+  EXPECT_NEAR(many.capillary_on, std::log(1.3) / std::log(on), 1e-3);
+  // Nothing that attracts closes nothing, whatever the noise.
+  EXPECT_EQ(law(0, 1, 0, 1, 2).pull, 0);
+  EXPECT_NEAR(law(1e-9, 2, 0, 1, 2).capillary_off, 0, 1e-7);
 }
 
-// T = T0 L^2 has no root beyond T0 = 1/4: whose it is, the water's before the drive or the pull's.
-TEST(LoadLaw, TellsAPullInOfWaterFromOneOfTheDrive) {
+// Eq. coupling.14: the largest load of the samples is that of the law, before the drive and under
+// it.
+TEST(LoadLaw, KnowsTheLargestLoadOfItsSamples) {
+  std::vector<AttractionSample> samples(3);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    PatchResult &dry = samples[k].dry, &settled = samples[k].settled;
+    dry.load = settled.load = 2;
+    dry.capillary_off = dry.capillary_on = dry.pull = 1;
+    settled.capillary_off = settled.capillary_on = 1.1;
+    settled.pull = k == 1 ? 3 : 1.2;
+  }
+  const AttractionLaw law = attraction_law(samples);
+  EXPECT_NEAR(law.most_off, 1.55, 1e-12);
+  EXPECT_NEAR(law.most_on, 3.05, 1e-12);
+  EXPECT_NEAR(law.toward(AttractionLaw{}, 0.5).most_on, (3.05 + 1) / 2, 1e-12);
+}
+
+// Powers whose fixed points are known: T = T0 sqrt(L) and T = T0 L; and water that pushes so hard
+// that every step goes beyond the root, T = -0.9 L^3.
+TEST(LoadLaw, SolvesItsFixedPoint) {
   AttractionLaw law;
-  law.capillary_off = law.capillary_on = law.pull = 2;
-  const auto settled = [&](double water, double field) {
+  law.most_off = law.most_on = 10;
+  law.pull = 0.5;
+  const double root = law.load_on(0, 0.6);
+  EXPECT_NEAR(std::sqrt(root), 0.3 + std::sqrt(1 + 0.09), 1e-9);
+  law.pull = 1;
+  EXPECT_NEAR(law.load_on(0, 0.6), 2.5, 1e-8);
+  EXPECT_NEAR(law.load_off(0.1), 1.1, 1e-12);
+  law.capillary_off = 3;
+  const double pushed = law.load_off(-0.9);
+  EXPECT_NEAR(pushed, 1 - 0.9 * pushed * pushed * pushed, 1e-9);
+}
+
+// Beyond the largest load that was sampled nothing grows: T = T0 L, which has no root from T0 = 1
+// on, stops there, and nothing steps where it begins to.
+TEST(LoadLaw, GoesNoFartherThanItsSamples) {
+  AttractionLaw law;
+  law.pull = 1;
+  law.most_on = 2;
+  EXPECT_NEAR(law.load_on(0, 0.4), 1 / 0.6, 1e-8);
+  EXPECT_NEAR(law.load_on(0, 0.4999), law.load_on(0, 0.5001), 2e-3);
+  EXPECT_NEAR(law.load_on(0, 3), 1 + 3 * 2, 1e-9);
+  PatchResult patch;
+  patch.load = 2;
+  patch.pull = 6;
+  law.apply(patch);
+  EXPECT_NEAR(patch.pull, 12, 1e-9);
+  EXPECT_TRUE(patch.status.sound());
+}
+
+// A pull-in is one of a skin that was solved, the water's before the drive or the drive's.
+TEST(LoadLaw, HasThePullInOfItsSamples) {
+  for (const Trouble trouble : {Trouble::UndrivenPullIn, Trouble::ClosedPullIn}) {
+    std::vector<AttractionSample> samples(3);
+    for (AttractionSample& s : samples) s.dry.load = s.settled.load = 1;
+    samples[1].settled.status.note({trouble, 0, ""});
     PatchResult patch;
     patch.load = 1;
-    patch.capillary_off = patch.capillary_on = water;
-    patch.pull = field;
-    law.apply(patch);
-    return patch.status.trouble;
-  };
-  EXPECT_EQ(settled(0.2, 0.04), Trouble::None);
-  EXPECT_EQ(settled(0.2, 0.06), Trouble::ClosedPullIn);
-  EXPECT_EQ(settled(0.26, 0), Trouble::UndrivenPullIn);
-  EXPECT_EQ(settled(0.26, 1), Trouble::UndrivenPullIn);
+    attraction_law(samples).apply(patch);
+    EXPECT_EQ(patch.status.trouble, trouble);
+  }
 }
 
 TEST(DrivePatch, WhatAPieceCannotSolveIsItsStatus) {

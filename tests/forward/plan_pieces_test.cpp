@@ -85,7 +85,7 @@ double water_price(const Scene& scene, const Grid& g) {
       .seconds(g, droplets / static_cast<double>(scene.environment.relative_humidity.size()));
 }
 
-// Water and drive by the load law, on 2 humidities: 12 skins, of which 5 are controls.
+// Water and drive by the load law, on 2 humidities: 8 skins, of which 5 are controls.
 TEST(PlanPieces, OfADrivenSearchWithControls) {
   Scene scene;
   scene.drive.amplitude = 100;
@@ -113,16 +113,16 @@ TEST(PlanPieces, OfADrivenSearchWithControls) {
   expect_plan(
       plan,
       {{"contact", "layered half-space, certified to 0.001",
-        "12 skins on 128 x 128 pixels, skin resolved to 188 nm", 24 * contact, 0},
+        "8 skins on 128 x 128 pixels, skin resolved to 188 nm", 16 * contact, 0},
        {"water", "droplet ensemble by lowest energy",
         "its variation over humidity is what textures change; error: mobility and number",
-        24 * water, water_error},
+        16 * water, water_error},
        {"field", "columns, the flux spreading in the dielectric",
-        "scaled to the 3-D field of 2 skins", 24 * field + 2 * 2 * full_field_seconds(g), 0.03},
+        "scaled to the 3-D field of 2 skins", 16 * field + 2 * 2 * full_field_seconds(g), 0.03},
        {"electrowetting", "saturated law, averaged over the cycle",
         "bridges conduct; the angle saturates", 0, 0},
        {"retention", "contact-angle hysteresis", "F = tau A + F_ret", 0, 0},
-       {"sampling", "12 skins, common to all designs", kPatches, 0, 0.09 / std::sqrt(12.0)},
+       {"sampling", "8 skins, common to all designs", kPatches, 0, 0.09 / std::sqrt(8.0)},
        {"errors", "5 of the skins on half the pixels",
         "what the grid and the load law may be off by, on solved areas", 2 * 5 * (again + halved),
         0}},
@@ -155,14 +155,14 @@ TEST(PlanPieces, ThePriceCountsDropletsPlacementsAndVolumes) {
     return water;
   };
   const double one = seconds(1);
-  EXPECT_NEAR(one, 12 * water_price(scene, {128, 128, 12e-6, 12e-6}), 1e-9 * one);
+  EXPECT_NEAR(one, 8 * water_price(scene, {128, 128, 12e-6, 12e-6}), 1e-9 * one);
   EXPECT_NEAR(seconds(3), 3 * one, 1e-9 * one);
   scene.finger.water.volume_spread = 0.33;
   EXPECT_NEAR(seconds(3), 6 * one, 1e-9 * one);
   scene.finger.water.volume_spread = 0, scene.finger.water.drops_per_um3 *= 100;
-  EXPECT_NEAR(seconds(1), 12 * water_price(scene, {128, 128, 12e-6, 12e-6}), 1e-9 * one);
+  EXPECT_NEAR(seconds(1), 8 * water_price(scene, {128, 128, 12e-6, 12e-6}), 1e-9 * one);
   for (double& volume : scene.finger.water.volume) volume *= 1000;
-  EXPECT_NEAR(seconds(1), 12 * 1.28e-3, 1e-9);
+  EXPECT_NEAR(seconds(1), 8 * 1.28e-3, 1e-9);
 }
 
 // What has a direction says that friction has none.

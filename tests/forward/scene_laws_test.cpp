@@ -283,7 +283,7 @@ TEST(SceneLaws, TheLevelsOfAccuracyAreOneTable) {
     int nodes, controls, field_skins;
   };
   for (const Level& l :
-       {Level{"search", 128, 12, Estimator::Load, 1e-3, 1e-2, 16, 1e-3, 3, 0, 0},
+       {Level{"search", 128, 8, Estimator::Load, 1e-3, 1e-2, 16, 1e-3, 3, 0, 0},
         Level{"draft", 128, 16, Estimator::Load, 1e-3, 1e-3, 16, 1e-3, 3, 4, 1},
         Level{"design", 256, 40, Estimator::Area, 1e-4, 1e-3, 16, 2e-3, 3, 4, 2},
         Level{"reference", 512, 96, Estimator::Area, 1e-6, 1e-5, 40, 5e-4, 6, 4, 6}}) {
@@ -296,7 +296,7 @@ TEST(SceneLaws, TheLevelsOfAccuracyAreOneTable) {
     EXPECT_EQ(f.field_tolerance, l.field) << l.name;
     EXPECT_EQ(f.coupling_passes, l.passes) << l.name;
     EXPECT_EQ(f.coupling_tolerance, l.coupling) << l.name;
-    EXPECT_EQ(f.equilibrium_skins, f.level == "search" ? 2 : 3) << l.name;
+    EXPECT_EQ(f.equilibrium_skins, f.level == "search" ? 4 : 3) << l.name;
     EXPECT_EQ(f.bridge_nodes, l.nodes) << l.name;
     EXPECT_EQ(f.control_skins, l.controls) << l.name;
     EXPECT_EQ(f.field_skins, l.field_skins) << l.name;

@@ -41,23 +41,25 @@ TEST(LevelNumbers, OfEachStageAreThoseOfTheTheory) {
   const Fidelity check = of(Stage::Sensitivity), search = of(Stage::Search),
                  draft = of(Stage::Draft), narrow = of(Stage::Narrow), confirm = of(Stage::Confirm);
   for (const Fidelity& f : {check, search, draft, narrow, confirm}) EXPECT_EQ(f.seed, 77u);
-  // 128 pixels and 12 skins of what is said of the best design.
+  // The search: eight skins of its own pixels, four of them in equilibrium; its drafts two.
   Fidelity expected = fidelity_level("search");
   expected.seed = 77;
-  EXPECT_EQ(check, expected);
-  EXPECT_EQ(check.grid, 128);
-  EXPECT_EQ(check.skins, 12);
-  EXPECT_EQ(of(Stage::Stability), check);
-  // The search: sixteen skins of its own pixels; its drafts two.
   expected.level = "steer";
-  expected.grid = search.grid, expected.skins = 16;
+  expected.grid = search.grid;
   EXPECT_EQ(search, expected);
+  EXPECT_EQ(search.skins, 8);
+  EXPECT_EQ(search.equilibrium_skins, 4);
   expected.skins = 2;
   EXPECT_EQ(draft, expected);
   // Between: twice as many from the 500th on, the pull corrected by the field of one.
   expected.level = "narrow";
-  expected.skins = 32, expected.first_skin = 500, expected.field_skins = 1;
+  expected.skins = 16, expected.first_skin = 500, expected.field_skins = 1;
   EXPECT_EQ(narrow, expected);
+  // So is what is said of one design on one finger, on the search's skins.
+  expected.level = "check";
+  expected.skins = 8, expected.first_skin = 0;
+  EXPECT_EQ(check, expected);
+  EXPECT_EQ(of(Stage::Stability), check);
   // Confirmed at the study's own level from the 1000th on.
   expected = fidelity_level("design");
   expected.seed = 77, expected.first_skin = 1000;
@@ -73,12 +75,13 @@ TEST(LevelNumbers, AreSharedOutOverThePopulation) {
   Study study = one_finger();
   const int whole = fidelity_level("design").skins;
   for (const auto& [fingers, searched, steps] :
-       {std::tuple{1, 16, 12}, {2, 8, 6}, {3, 5, 4}, {4, 4, 3}, {5, 4, 2}, {8, 4, 2}}) {
+       {std::tuple{1, 8, 12}, {2, 4, 6}, {3, 4, 4}, {4, 4, 3}, {5, 4, 2}, {8, 4, 2}}) {
     study.population.assign(static_cast<std::size_t>(fingers), study.design.finger);
     const StudyProblem problem(study);
     EXPECT_EQ(stage_fidelity(problem, Stage::Search).skins, searched) << fingers;
     EXPECT_EQ(stage_fidelity(problem, Stage::Draft).skins, 2);
     EXPECT_EQ(stage_fidelity(problem, Stage::Narrow).skins, 2 * searched);
+    EXPECT_EQ(stage_fidelity(problem, Stage::Stability).skins, 8);
     EXPECT_EQ(stage_fidelity(problem, Stage::Confirm).skins, std::max(10, whole / fingers));
     EXPECT_EQ(steps_fidelity(problem, fidelity_level("design")).skins, steps) << fingers;
   }

@@ -397,7 +397,7 @@ TEST(Levels, NoTwoJudgeOnTheSameSkins) {
     const Fidelity search = stage_fidelity(problem, Stage::Search),
                    between = stage_fidelity(problem, Stage::Narrow),
                    confirmed = stage_fidelity(problem, Stage::Confirm);
-    EXPECT_EQ(search.skins * static_cast<int>(fingers), 16);
+    EXPECT_EQ(search.skins, fingers == 1 ? 8 : 4);
     EXPECT_EQ(between.skins, 2 * search.skins);
     EXPECT_EQ(between.grid, search.grid);
     EXPECT_EQ(between.field_skins, 1);  // what decides the order of kinds

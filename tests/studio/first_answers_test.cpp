@@ -202,7 +202,8 @@ TEST(FirstAnswers, AreComputedOnMorePixelsWhereFeaturesAreNarrow) {
                                        {5.44e-6, 96}}) {
     set_number(design, "texture.diameter", diameter);
     Fidelity expected = fidelity_level("search");
-    expected.seed = 41, expected.grid = grid, expected.skins = 6;
+    expected.seed = 41, expected.grid = grid;
+    expected.skins = 6, expected.equilibrium_skins = 2;
     EXPECT_EQ(quick_fidelity(design), expected) << diameter;
   }
 }
