@@ -6,9 +6,12 @@
 //                                                  periods that give each another patch
 //   build/release/bench/load_law_bench exponents FILE [KEY=VALUE ...]
 //                                                  loads by the law of a few skins on the others of
-//                                                  24, exponents shrunk and not, by 100, 200, 400 V
+//                                                  24, beside exponents that are not shrunk and
+//                                                  forces that grow to twice the load, by 100, 200
+//                                                  and 400 V
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <span>
@@ -87,11 +90,19 @@ AttractionLaw unshrunk(std::span<const AttractionSample> samples) {
   return law;
 }
 
+// Forces that go on growing to twice the load that was sampled.
+AttractionLaw farther(std::span<const AttractionSample> samples) {
+  AttractionLaw law = attraction_law(samples);
+  law.sampled_off *= 2, law.sampled_on *= 2;
+  return law;
+}
+
 void exponents(const std::string& file, const std::vector<std::string>& keys) {
   constexpr std::size_t kSkins = 24;
   fmt::print(
-      "V,humidity,skins of the law,rms error of a skin's load,of the mean load,"
-      "of a skin unshrunk,of the mean unshrunk\n");
+      "V,humidity,skins that close their gap,skins of the law,rms error of a skin's load,"
+      "of the mean load,of a skin unshrunk,of the mean unshrunk,of a skin to twice the load,"
+      "of the mean to twice the load\n");
   for (const double volts : {100.0, 200.0, 400.0}) {
     const Design d = read_design(file, keys);
     Scene scene = scene_of(d);
@@ -114,14 +125,17 @@ void exponents(const std::string& file, const std::vector<std::string>& keys) {
         const PatchResult dry = solve_patch(problem, setup.plan(), f, states, nullptr, &before);
         all.push_back({dry, settled_patch(problem, setup.plan(), f, before, there)});
       }
+      const auto closed = std::count_if(all.begin(), all.end(), [](const AttractionSample& s) {
+        return s.settled.status.pull_in();
+      });
       for (const std::size_t few : {2, 4}) {
         std::string row;
-        for (const bool shrunk : {true, false}) {
+        for (const auto& law_of : {attraction_law, unshrunk, farther}) {
           double of_skin = 0, of_mean = 0;
           int others = 0, laws = 0;
           for (std::size_t from = 0; from + few <= kSkins; from += few) {
             const auto samples = std::span(all).subspan(from, few);
-            const AttractionLaw law = shrunk ? attraction_law(samples) : unshrunk(samples);
+            const AttractionLaw law = law_of(samples);
             if (!law.status.sound()) continue;
             double by_law = 0, solved = 0;
             for (std::size_t k = 0; k < kSkins; ++k) {
@@ -137,7 +151,7 @@ void exponents(const std::string& file, const std::vector<std::string>& keys) {
           row +=
               fmt::format(",{:.4f},{:.4f}", std::sqrt(of_skin / others), std::sqrt(of_mean / laws));
         }
-        fmt::print("{:.0f},{},{}{}\n", volts, humidity, few, row);
+        fmt::print("{:.0f},{},{},{}{}\n", volts, humidity, closed, few, row);
         std::fflush(stdout);
       }
     }

@@ -29,9 +29,10 @@ double sum_of(std::span<const AttractionSample> samples, PatchResult AttractionS
   return sum;
 }
 
-// Total load of a patch over the nominal one.
-double before_the_drive(const PatchResult& p) { return 1 + p.capillary_off / p.load; }
-double under_the_drive(const PatchResult& p) { return 1 + (p.capillary_on + p.pull) / p.load; }
+// The load that a force grows by: on the way from the nominal one to that of the samples.
+double sampled_part(double load, double sampled) {
+  return sampled > 1 ? std::min(load, sampled) : std::max(load, sampled);
+}
 
 // The lowest root of load = total(load) from 1 on; total is bounded. Where it falls, as of water
 // that pushes, steps that swing around the root are halved.
@@ -54,26 +55,25 @@ double settled_load(const Total& total) {
 
 double AttractionLaw::load_off(double capillary) const {
   return settled_load([&](double load) {
-    return 1 + capillary * std::pow(std::min(load, most_off), capillary_off);
+    return 1 + capillary * std::pow(sampled_part(load, sampled_off), capillary_off);
   });
 }
 
 double AttractionLaw::load_on(double capillary, double of_field) const {
   return settled_load([&](double load) {
-    const double closed = std::min(load, most_on);
-    return 1 + capillary * std::pow(closed, capillary_on) + of_field * std::pow(closed, pull);
+    const double grown = sampled_part(load, sampled_on);
+    return 1 + capillary * std::pow(grown, capillary_on) + of_field * std::pow(grown, pull);
   });
 }
 
 void AttractionLaw::apply(PatchResult& patch) const {
   patch.status.note(status);
   if (!(patch.load > 0)) return;
-  const double off = std::min(load_off(patch.capillary_off / patch.load), most_off),
-               on = std::min(load_on(patch.capillary_on / patch.load, patch.pull / patch.load),
-                             most_on);
-  patch.capillary_off *= std::pow(off, capillary_off);
-  patch.capillary_on *= std::pow(on, capillary_on);
-  patch.pull *= std::pow(on, pull);
+  const double off = load_off(patch.capillary_off / patch.load),
+               on = load_on(patch.capillary_on / patch.load, patch.pull / patch.load);
+  patch.capillary_off *= std::pow(sampled_part(off, sampled_off), capillary_off);
+  patch.capillary_on *= std::pow(sampled_part(on, sampled_on), capillary_on);
+  patch.pull *= std::pow(sampled_part(on, sampled_on), pull);
   patch.retention *= retention_off;
   patch.retention_on *= retention_on;
 }
@@ -82,7 +82,7 @@ AttractionLaw AttractionLaw::toward(const AttractionLaw& other, double share) co
   AttractionLaw out = *this;
   for (double AttractionLaw::*number :
        {&AttractionLaw::capillary_off, &AttractionLaw::capillary_on, &AttractionLaw::pull,
-        &AttractionLaw::most_off, &AttractionLaw::most_on, &AttractionLaw::retention_off,
+        &AttractionLaw::sampled_off, &AttractionLaw::sampled_on, &AttractionLaw::retention_off,
         &AttractionLaw::retention_on})
     out.*number += share * (other.*number - out.*number);
   return out;
@@ -106,20 +106,16 @@ AttractionLaw attraction_law(std::span<const AttractionSample> samples) {
   const auto dry = &AttractionSample::dry, settled = &AttractionSample::settled;
   const double load = sum(dry, &PatchResult::load);
   if (!(load > 0) || !law.status.sound()) return law;
-  for (const AttractionSample& s : samples) {
-    law.most_off = std::max(law.most_off, before_the_drive(s.settled));
-    law.most_on = std::max(law.most_on, under_the_drive(s.settled));
-  }
-  const double off = 1 + sum(settled, &PatchResult::capillary_off) / load;
-  const double on =
+  law.sampled_off = 1 + sum(settled, &PatchResult::capillary_off) / load;
+  law.sampled_on =
       1 + (sum(settled, &PatchResult::capillary_on) + sum(settled, &PatchResult::pull)) / load;
   const auto grows = [&](double PatchResult::*force, double by, double unknown) {
     return exponent(sum(dry, force), sum(settled, force), by,
                     unknown / static_cast<double>(samples.size()));
   };
-  law.capillary_off = grows(&PatchResult::capillary_off, off, kUnknownOfWater);
-  law.capillary_on = grows(&PatchResult::capillary_on, on, kUnknownOfWater);
-  law.pull = grows(&PatchResult::pull, on, kUnknownOfField);
+  law.capillary_off = grows(&PatchResult::capillary_off, law.sampled_off, kUnknownOfWater);
+  law.capillary_on = grows(&PatchResult::capillary_on, law.sampled_on, kUnknownOfWater);
+  law.pull = grows(&PatchResult::pull, law.sampled_on, kUnknownOfField);
   const auto factor = [&](double PatchResult::*value) {
     const double before = sum(dry, value);
     return before > 0 ? sum(settled, value) / before : 1;

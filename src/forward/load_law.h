@@ -19,11 +19,11 @@ struct AttractionSample {
   PatchResult dry, settled;
 };
 
-// Attractions as powers of the total load over the nominal one, up to the largest that was sampled:
-// beyond it they stay what they are there. Eq. coupling.14
+// Attractions as powers of the total load over the nominal one, up to that of the samples: beyond
+// it they stay what they are there. Eq. coupling.14
 struct AttractionLaw {
   double capillary_off = 0, capillary_on = 0, pull = 0;  // exponents
-  double most_off = 1, most_on = 1;                      // total loads
+  double sampled_off = 1, sampled_on = 1;                // total loads over nominal ones
   double retention_off = 1, retention_on = 1;            // factors
   ModelStatus status;  // of the first sample that has no equilibrium
 

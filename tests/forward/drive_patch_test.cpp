@@ -394,9 +394,7 @@ TEST(LoadLaw, ShrinksAnExponentThatTheLoadDoesNotTell) {
   EXPECT_NEAR(law(1e-9, 2, 0, 1, 2).capillary_off, 0, 1e-7);
 }
 
-// Eq. coupling.14: the largest load of the samples is that of the law, before the drive and under
-// it.
-TEST(LoadLaw, KnowsTheLargestLoadOfItsSamples) {
+TEST(LoadLaw, KnowsTheLoadOfItsSamples) {
   std::vector<AttractionSample> samples(3);
   for (std::size_t k = 0; k < samples.size(); ++k) {
     PatchResult &dry = samples[k].dry, &settled = samples[k].settled;
@@ -406,16 +404,16 @@ TEST(LoadLaw, KnowsTheLargestLoadOfItsSamples) {
     settled.pull = k == 1 ? 3 : 1.2;
   }
   const AttractionLaw law = attraction_law(samples);
-  EXPECT_NEAR(law.most_off, 1.55, 1e-12);
-  EXPECT_NEAR(law.most_on, 3.05, 1e-12);
-  EXPECT_NEAR(law.toward(AttractionLaw{}, 0.5).most_on, (3.05 + 1) / 2, 1e-12);
+  EXPECT_NEAR(law.sampled_off, 1.55, 1e-12);
+  EXPECT_NEAR(law.sampled_on, 1 + (3 * 1.1 + 5.4) / 6, 1e-12);
+  EXPECT_NEAR(law.toward(AttractionLaw{}, 0.5).sampled_on, (law.sampled_on + 1) / 2, 1e-12);
 }
 
 // Powers whose fixed points are known: T = T0 sqrt(L) and T = T0 L; and water that pushes so hard
 // that every step goes beyond the root, T = -0.9 L^3.
 TEST(LoadLaw, SolvesItsFixedPoint) {
   AttractionLaw law;
-  law.most_off = law.most_on = 10;
+  law.sampled_off = law.sampled_on = 10;
   law.pull = 0.5;
   const double root = law.load_on(0, 0.6);
   EXPECT_NEAR(std::sqrt(root), 0.3 + std::sqrt(1 + 0.09), 1e-9);
@@ -423,16 +421,17 @@ TEST(LoadLaw, SolvesItsFixedPoint) {
   EXPECT_NEAR(law.load_on(0, 0.6), 2.5, 1e-8);
   EXPECT_NEAR(law.load_off(0.1), 1.1, 1e-12);
   law.capillary_off = 3;
+  law.sampled_off = 0.1;
   const double pushed = law.load_off(-0.9);
   EXPECT_NEAR(pushed, 1 - 0.9 * pushed * pushed * pushed, 1e-9);
 }
 
-// Beyond the largest load that was sampled nothing grows: T = T0 L, which has no root from T0 = 1
+// Beyond the load that was sampled nothing grows: T = T0 L, which has no root from T0 = 1
 // on, stops there, and nothing steps where it begins to.
 TEST(LoadLaw, GoesNoFartherThanItsSamples) {
   AttractionLaw law;
   law.pull = 1;
-  law.most_on = 2;
+  law.sampled_on = 2;
   EXPECT_NEAR(law.load_on(0, 0.4), 1 / 0.6, 1e-8);
   EXPECT_NEAR(law.load_on(0, 0.4999), law.load_on(0, 0.5001), 2e-3);
   EXPECT_NEAR(law.load_on(0, 3), 1 + 3 * 2, 1e-9);
