@@ -1,14 +1,11 @@
 // The load law (Eq. coupling.14) against the equilibrium of every skin, as CSV. Run by hand after
 // ninja -C build/release load_law_bench:
-//   build/release/bench/load_law_bench skins       what skins and equilibria leave to luck, and
-//   cost:
-//                                                  gratings of 3 nm, which are flat glass, of
-//                                                  periods that give each another patch
+//   build/release/bench/load_law_bench skins
+//     what skins and equilibria leave to luck, and cost: gratings of 3 nm, which are flat glass, of
+//     periods that give each another patch
 //   build/release/bench/load_law_bench exponents FILE [KEY=VALUE ...]
-//                                                  loads by the law of a few skins on the others of
-//                                                  24, beside exponents that are not shrunk and
-//                                                  forces that grow to twice the load, by 100, 200
-//                                                  and 400 V
+//     loads by the law of a few skins on the others of 24, beside exponents that are not shrunk and
+//     forces that grow to twice the load, by 100, 200 and 400 V
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -78,7 +78,7 @@ class Bayesian : public Searcher {
               const std::vector<Point>& others = {}) const {
     const auto same = [&](const Point& v) {
       for (std::size_t k = 0; k < u.size(); ++k) {
-        if (std::abs(u[k] - v[k]) > 1e-6) return false;
+        if (std::abs(u[k] - v[k]) > problem_.apart) return false;
       }
       return true;
     };

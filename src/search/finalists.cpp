@@ -21,6 +21,8 @@ constexpr double kFewConfirmed = 3, kLeastConfirmation = 0.02;
 // differ by this share of some variable's range.
 constexpr std::size_t kLeastBelieved = 4;
 constexpr double kApart = 0.15;
+// The level between asks no design that differs from a judged one by less of every range.
+constexpr double kAnotherDesign = 0.03;
 
 // Which designs of one level to judge at the next.
 std::vector<std::size_t> chosen_of(const SearchProblem& search, const JudgedDesigns& designs,
@@ -332,6 +334,7 @@ void narrow(Run& run) {
   SearchProblem problem = run.search;
   problem.residuals = 0;
   problem.known_drafts = known_drafts(run.history.evaluations);
+  problem.apart = kAnotherDesign;
   if (count < 2 || problem.known_drafts.empty()) return;
   const auto searcher = make_searcher({"bayesian", ""}, problem);
   std::vector<Point> asked;

@@ -24,6 +24,8 @@ struct QuickLevel {
 constexpr std::array<QuickLevel, 3> kLevels{
     {{64, {0.69, 0.64, 0.83}}, {96, {0.77, 0.7, 0.85}}, {128, {0.84, 0.82, 0.94}}}};
 constexpr int kSkins = 6, kEquilibria = 2;
+// A law is carried to other drives: forces go on growing to so many times the anchor's load.
+constexpr double kBeyond = 4;
 constexpr double kFewPixels = 3;  // of the smallest feature: its area is not its own below
 
 // One standard error (docs/theory/studio.md): of the ratio of two levels, relative to what the
@@ -98,6 +100,9 @@ Anchor anchor_of(const Design& design, Response refined) {
     return std::all_of(laws.begin(), laws.end(), sound);
   });
   if (!hold) out.laws.clear();
+  for (LoadLaws& laws : out.laws) {
+    for (AttractionLaw& law : laws) law.sampled_off *= kBeyond, law.sampled_on *= kBeyond;
+  }
   out.quick = quick_answer(design, &out);
   return out;
 }
