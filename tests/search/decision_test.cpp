@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "base/constants.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "base/watch.h"
@@ -152,29 +151,6 @@ TEST(Decision, IsTheLeastExpectedRegretAndNamesWhatOverturnsIt) {
                 0.2 + 0.1 * most, 0.7 * (0.2 + 0.1 * most) + 0.3 * there(most), there(most))),
             std::string::npos)
       << lead;
-}
-
-// The flat surface is the best in both objectives; what it is compared with is the next by each of
-// them in turn, and not three of a kind.
-TEST(Decision, RivalsAreTheBestInEachObjectiveInTurn) {
-  const TaskFormula formula = [](const TaskRequest& r) {
-    TaskAnswer out = overturning(r);
-    const double depth = r.flat ? 0 : r.unit[0], mean = 0.8 - 0.3 * depth,
-                 variation = 0.1 + 0.05 * depth + 0.3 * std::sin(kPi * depth);
-    const auto judged = [&](TaskAnswer& a) {
-      a.objectives = {{mean, 0.001, {mean, mean}}, {variation, 0.001, {variation, variation}}};
-    };
-    judged(out);
-    for (TaskAnswer& member : out.members) judged(member);
-    return out;
-  };
-  const BelievingRun a(believing(0.3), "decision_rivals", formula);
-  std::vector<double> depths;
-  for (const Point& unit : a.units(Stage::Confirm)) depths.push_back(unit[0]);
-  ASSERT_GE(depths.size(), 4u);
-  std::sort(depths.begin(), depths.end());
-  EXPECT_LT(depths.front(), 0.1);
-  EXPECT_GT(depths.back(), 0.85);
 }
 
 // What another beats by the confirmed numbers and at every member is off the front; one member that

@@ -148,6 +148,39 @@ TEST(Stages, EachAsksAsManyDesignsAsItSays) {
   }
 }
 
+// Answers scatter from design to design: what is gained beside a judged one is luck.
+TEST(Stages, TheLevelBetweenAsksOfNoDesignBesideAJudgedOne) {
+  const Formula scattered = [](const TaskRequest& r) {
+    TaskAnswer out = lines(r);
+    const double luck = 0.03 * std::sin(1e4 * (r.unit[0] + 2 * r.unit[1]));
+    TaskObjective& variation = out.objectives[1];
+    variation.value += luck;
+    for (double& point : variation.points) point += luck;
+    return out;
+  };
+  Study study = two_variables();
+  study.search.evaluations = 60;
+  AnsweredRun a(study, fresh_folder("stages_apart"), scattered);
+  search_designs(a.run);
+  narrow(a.run);
+  const std::vector<Evaluation>& searched = a.run.history.evaluations;
+  const std::vector<Evaluation>& between = a.run.narrowed.evaluations;
+  ASSERT_EQ(between.size(), 20u);
+  int fresh = 0;
+  for (std::size_t i = 0; i < between.size(); ++i) {
+    const Point& u = between[i].unit;
+    if (std::any_of(searched.begin(), searched.end(),
+                    [&](const Evaluation& e) { return e.unit == u; }))
+      continue;
+    ++fresh;
+    for (std::size_t j = 0; j < i; ++j) {
+      const Point& v = between[j].unit;
+      EXPECT_GT(std::max(std::abs(u[0] - v[0]), std::abs(u[1] - v[1])), 0.03) << i << ", " << j;
+    }
+  }
+  EXPECT_GT(fresh, 5);
+}
+
 // Where flat is nowhere on the front, the first finalist's own surface is confirmed without its
 // texture, second of all.
 TEST(Stages, TheFlatSurfaceIsConfirmedSecond) {
