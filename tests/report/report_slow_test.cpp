@@ -22,7 +22,7 @@ grid = 32
 fingers = ["reference.toml", "moist.toml"]
 [search]
 evaluations = 6
-seed = 2
+seed = 7
 )";
 
 // A run that all tests of the suite read.
