@@ -35,8 +35,8 @@ struct SearchProblem {
   int drafts = 0;
   // Drafts that are known already: "bayesian" asks no others, and starts from what it is told.
   std::vector<Evaluation> known_drafts;
-  // Points that differ by less in every coordinate are one to "bayesian": where evaluations scatter,
-  // nothing is learned from the same one again.
+  // Points that differ by less in every coordinate are one to "bayesian": where evaluations
+  // scatter, nothing is learned from the same one again.
   double apart = 1e-6;
   std::uint64_t seed = 1;
 

@@ -167,11 +167,12 @@ TEST(FirstAnswers, TakeTheLoadLawsOfTheirAnchor) {
                     solve_patches(scene_of(away), away.texture, fidelity, {}, anchor.laws))
                 .points);
   EXPECT_LT(quick.contact_solves, 0.75 * own.contact_solves);
-  // The anchor itself is answered so, with the numbers of its own laws.
+  // The anchor itself is answered so; its own laws let forces grow to its load and no farther.
   EXPECT_EQ(anchor.quick.points, quick_answer(at, &anchor).points);
   const Response alone = quick_answer(at, nullptr);
   for (std::size_t i = 0; i < 2; ++i)
-    EXPECT_EQ(anchor.quick.points[i].modulation.value, alone.points[i].modulation.value);
+    EXPECT_NEAR(anchor.quick.points[i].modulation.value / alone.points[i].modulation.value, 1,
+                0.02);
   const double moved = own.points[0].modulation.value;
   EXPECT_NEAR(quick.points[0].modulation.value, moved, 0.02 * moved);
   KeptPatches kept;
