@@ -13,9 +13,8 @@ namespace {
 constexpr double kUnknownOfWater = 0.1, kUnknownOfField = 0.02;
 
 // The exponent of a force that is `before` on the dry gap and `after` under `load` times the
-// nominal one. unknown: of these skins; as much as it weighs beside what the load tells, the
-// exponent is shrunk towards 0, that the force stays what it is. So is one that is none or changes
-// its sign.
+// nominal one, shrunk towards 0 by what these skins leave `unknown` beside what the load tells. 0
+// where the force is none or changes its sign: it then stays what it is. Eq. coupling.14
 double exponent(double before, double after, double load, double unknown) {
   if (!(before * after > 0) || !(load > 0)) return 0;
   const double closed = std::log(load);
@@ -29,7 +28,8 @@ double sum_of(std::span<const AttractionSample> samples, PatchResult AttractionS
   return sum;
 }
 
-// The load that a force grows by: on the way from the nominal one to that of the samples.
+// The load that a force grows by: no farther from the nominal one than that of the samples.
+// Eq. coupling.14
 double sampled_part(double load, double sampled) {
   return sampled > 1 ? std::min(load, sampled) : std::max(load, sampled);
 }
