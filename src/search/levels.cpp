@@ -130,7 +130,9 @@ constexpr double kPullIn = 1;
 // Of a task's model part.
 ModelCost steps_cost(const StudyProblem& problem, const Fidelity& confirmed) {
   const Fidelity few = steps_fidelity(problem, confirmed);
-  return model_cost(problem.tasks().front().finger, few, few.skins);
+  const Design& design = problem.study().design;
+  const Design own = task_design(problem.study(), design, problem.tasks().front());
+  return model_cost(scene_of(own), few, few.skins);
 }
 
 double priced(const StudyProblem& problem, const Fidelity& fidelity) {
@@ -278,8 +280,8 @@ StudyCost study_cost(const Study& study) {
   return out;
 }
 
-std::string search_plan(const Study& study) {
-  const StudyProblem problem(study);
+std::string search_plan(const StudyProblem& problem) {
+  const Study& study = problem.study();
   const SearchProblem search = search_problem(problem);
   const SearchMethod method = choose_method(study.search.method, search);
   std::string out =

@@ -57,6 +57,6 @@ struct StudyCost {
 StudyCost study_cost(const Study& study);
 
 // What will run, for plan.txt and people.
-std::string search_plan(const Study& study);
+std::string search_plan(const StudyProblem& problem);
 
 }  // namespace papilla::search

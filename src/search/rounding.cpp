@@ -44,20 +44,23 @@ bool rounds(const Variable& v, double value) {
 
 // Values of the grid that the variable may take, nearest first; empty: there is none beside it.
 std::vector<double> grid_values(const Variable& v, double value, double grid) {
-  const double step = step_of(v, value, grid);
   std::vector<double> out;
-  const auto add = [&](double k) {
+  const auto add = [&](double k, double step) {
     const double at = multiple(k * step, step, v.unit);
+    // Beside a number on a finer grid lie values that are on a coarser one, as 502 nm beside 499.
+    const bool coarser = multiple(at, step_of(v, at, grid), v.unit) != at;
     const bool excluded = std::any_of(v.excluded.begin(), v.excluded.end(),
                                       [&](const Excluded& e) { return e.holds(at); });
-    if (at >= v.low && at <= v.high && !excluded && std::count(out.begin(), out.end(), at) == 0)
+    if (at >= v.low && at <= v.high && !coarser && !excluded &&
+        std::count(out.begin(), out.end(), at) == 0)
       out.push_back(at);
   };
-  const double below = std::floor(value / step);
-  for (int k = 1 - kReach; k <= kReach; ++k) add(below + k);
-  for (const Excluded& e : v.excluded) {  // beyond both ends of what is left out
-    add(std::floor(e.from / step));
-    add(std::ceil(e.to / step));
+  const double step = step_of(v, value, grid), below = std::floor(value / step);
+  for (int k = 1 - kReach; k <= kReach; ++k) add(below + k, step);
+  for (const Excluded& e : v.excluded) {  // beyond both ends of what is left out, or on them
+    const double from = step_of(v, e.from, grid), to = step_of(v, e.to, grid);
+    add(std::floor(e.from / from + kLimitTolerance), from);
+    add(std::ceil(e.to / to - kLimitTolerance), to);
   }
   std::stable_sort(out.begin(), out.end(),
                    [&](double a, double b) { return std::abs(a - value) < std::abs(b - value); });

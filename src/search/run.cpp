@@ -312,7 +312,7 @@ OptimiseResult optimise(const Study& study, const OptimiseOptions& options) {
   run.result.why = run.method.why;
   run.result.asked = run.search.evaluations;
   run.folder.write("resolved.toml", resolved_toml(study));
-  run.folder.write("plan.txt", search_plan(study));
+  run.folder.write("plan.txt", search_plan(run.problem));
   const StageSeconds at = run_stages(run);
   run.folder.remove(kProgressFile);
   // What a finished run wrote stays when it was to be written anew.

@@ -694,6 +694,34 @@ TEST(BuildSheet, OfAWishForLessTheWorthIsTheNumber) {
   EXPECT_NE(said.find(", which has 280 ("), std::string::npos) << said;
 }
 
+// Members of belief judge the front alone: of a surface that is not on it nobody knows how sure it
+// is, whether it was confirmed beside the front or not at all.
+TEST(BuildSheet, OfASurfaceBesideTheFrontSaysThatHowSureItIsWasNotJudged) {
+  Searched run;
+  Decision& decision = run.result.decision;
+  decision.designs = {search::Prospect{}};
+  decision.rule = {search::PickRule::Kind::Objective, 0};
+  decision.best_worth = 0.5;
+  const auto said = [&] { return as_read(decision_grounds(run.files()).front()); };
+  EXPECT_TRUE(said().starts_with("How sure: of the 1 designs of the front design 01 is")) << said();
+  run.result.flat = score(0.49, 0.29, 0.2);
+  ASSERT_EQ(advice_of(run.problem, run.result), Advice::Finish);
+  const std::string not_judged =
+      "How sure that is was not judged: only designs of the front are judged at the members of "
+      "belief, and the surface is none of them.";
+  EXPECT_EQ(decision_grounds(run.files()), std::vector<std::string>{not_judged});
+  EXPECT_EQ(as_read(grounds(run.files()).front()), not_judged);
+  FinalDesign& flat = run.result.finalists[1];
+  flat.unit = *run.problem.space().flattened(run.result.finalists[0].unit);
+  flat.design = run.problem.space().design(flat.unit);
+  EXPECT_EQ(decision_grounds(run.files()), std::vector<std::string>{not_judged});
+  flat.on_front = true, flat.folder = "front/02";
+  decision.designs.push_back(search::Prospect{});
+  EXPECT_TRUE(said().starts_with(
+      "How sure: of the 2 designs of the front design 02, the surface that is recommended, is"))
+      << said();
+}
+
 TEST(BuildSheet, ForProgramsIsInTheUnitsOfTheStudy) {
   Searched run;
   run.result.at_bound = {{0, true, 5e-6, false, 0, {}}};

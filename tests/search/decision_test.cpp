@@ -417,6 +417,25 @@ TEST(Decision, TheFrontHoldsWhatIsBestSomewhere) {
                           [](const FinalDesign& f) { return f.on_front == !f.folder.empty(); }));
 }
 
+// One design of the level between is the best in both objectives. In the first the deeper ones come
+// next, one after another; in the second the one of another angle.
+TEST(Decision, RivalsAreTheBestInEachObjectiveInTurn) {
+  const TaskFormula formula = [](const TaskRequest& r) {
+    const double depth = r.unit[0], angle = r.unit[1];
+    TaskAnswer out = at(depth, angle, 0.2);
+    const double mean = 0.8 - 0.1 * (depth + 1.5 * angle),
+                 variation = 0.2 + 0.1 * (3 * depth + angle);
+    out.objectives = {{mean, 0.01, {mean, mean}}, {variation, 0.01, {variation, variation}}};
+    return out;
+  };
+  FormulaRun a(believing(0.3), fresh_folder("decision_rivals"), formula);
+  const Point best{0, 0}, deeper{0.2, 0}, deep{0.4, 0}, deepest{0.6, 0}, turned{0, 0.5};
+  for (const Point& unit : {best, deeper, deep, deepest, turned})
+    a.run.narrowed.add(unit, judged_at(Stage::Narrow, a.run, formula, unit));
+  confirm(a.run);
+  EXPECT_EQ(a.units(Stage::Confirm), (std::vector<Point>{best, deeper, turned, deep}));
+}
+
 TEST(Decision, WithoutABeliefItSaysWhyAndNothingElseChanges) {
   Study study = believing(0.3);
   study.design.finger.belief.clear();
@@ -445,7 +464,7 @@ TEST(Decision, ItsPriceIsStated) {
   const StudyCost with = study_cost(study);
   EXPECT_EQ(with.members, 3u);
   EXPECT_GT(with.belief_seconds, 0);
-  EXPECT_NE(search_plan(study).find("3 members"), std::string::npos);
+  EXPECT_NE(search_plan(StudyProblem(study)).find("3 members"), std::string::npos);
   study.design.finger.belief.clear();
   const StudyCost without = study_cost(study);
   EXPECT_EQ(without.members, 0u);

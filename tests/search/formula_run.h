@@ -16,6 +16,14 @@ namespace papilla::tests {
 
 using TaskFormula = std::function<TaskAnswer(const TaskRequest&)>;
 
+// As one level says of a design.
+inline search::Judgement judged_at(Stage stage, const search::Run& run, const TaskFormula& formula,
+                                   const Point& unit) {
+  const Score score =
+      run.problem.score(run.problem.space().design(unit), {formula({stage, 0, false, unit})});
+  return {run.problem.outcome(score), score.worst};
+}
+
 class FormulaWorker : public Team {
  public:
   FormulaWorker(TaskFormula formula, std::vector<TaskRequest>& asked, std::size_t workers = 1)

@@ -143,7 +143,7 @@ TEST(LevelNumbers, ThePlanOfASearchNamesItsStages) {
                      stage_fidelity(problem, stage))
         .text();
   };
-  const std::string plan = search_plan(study);
+  const std::string plan = search_plan(StudyProblem(study));
   EXPECT_TRUE(plan.starts_with("search: bayesian (")) << plan;
   EXPECT_NE(plan.find("), 9 drafts, 40 evaluations, seed 77\n"
                       "tasks of an evaluation (finger, scenario): [mine]\n\nsearch level:\n" +
@@ -155,11 +155,11 @@ TEST(LevelNumbers, ThePlanOfASearchNamesItsStages) {
   EXPECT_TRUE(plan.ends_with(level(Stage::Confirm)));
   study.search.drafts = 0;
   study.search.evaluations = 5;  // one to judge again is none
-  const std::string few = search_plan(study);
+  const std::string few = search_plan(StudyProblem(study));
   EXPECT_NE(few.find("), 5 evaluations, seed 77\n"), std::string::npos) << few;
   EXPECT_EQ(few.find("again, other skins"), std::string::npos) << few;
   study.search.evaluations = 6;
-  EXPECT_NE(search_plan(study).find("\n2 of them and of their neighbours again"),
+  EXPECT_NE(search_plan(StudyProblem(study)).find("\n2 of them and of their neighbours again"),
             std::string::npos);
 }
 

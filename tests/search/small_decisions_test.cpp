@@ -160,6 +160,8 @@ TEST(SmallDecisions, AGridStaysWithinItsIntervalAndOutOfItsHoles) {
   EXPECT_NEAR(nm(694, 500, 900, hole), 700, 1e-9);
   EXPECT_NEAR(nm(604, 500, 900, hole), 600, 1e-9);
   EXPECT_NEAR(nm(698, 500, 900, hole), 700, 1e-9);
+  // The end of a hole may be a value of the grid itself.
+  EXPECT_NEAR(nm(703, 500, 705, {{600 / 1e9, 702 / 1e9}}), 600, 1e-9);
 }
 
 // Round a design its grid is walked from the nearest place outwards: floor and ceil of all numbers
@@ -186,6 +188,12 @@ TEST(SmallDecisions, AGridIsWalkedFromTheNearestPlaceOutwards) {
     ASSERT_TRUE(next);
     EXPECT_TRUE(seen.insert(next->value).second);
   }
+  // Round 499.6 nm, on 1 nm, nothing is on 1 nm from 500 nm on.
+  GridDesigns border(problem, problem.space().unit({6.004e-6, 3.002e-6, 499.6e-9, 63.2 * degree}),
+                     false);
+  std::set<double> depths;
+  for (int k = 0; k < 400; ++k) depths.insert(std::round(1e9 * border.next().value().value[2]));
+  EXPECT_EQ(depths, (std::set<double>{497, 498, 499, 500}));
   // Of a flat surface the finish alone moves.
   Point flat = problem.space().unit({6.004e-6, 3.002e-6, 350.3e-9, 63.2 * degree});
   GridDesigns finishes(problem, flat, true);

@@ -101,14 +101,6 @@ struct AnsweredRun {
   Run run;
 };
 
-// As one level says of a design.
-search::Judgement judged_at(Stage stage, const search::Run& run, const Formula& formula,
-                            const Point& unit) {
-  const Score score =
-      run.problem.score(run.problem.space().design(unit), {formula({stage, 0, false, unit})});
-  return {run.problem.outcome(score), score.worst};
-}
-
 // One that several tests read.
 const AnsweredRun& whole_run() {
   static AnsweredRun run(two_variables(), fresh_folder("stages"), lines);
