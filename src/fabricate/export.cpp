@@ -168,6 +168,20 @@ void judge_size(Export& out, const ExportOptions& options) {
           : "the smallest patch that holds the texture"));
 }
 
+// Files that hold the map once beside one that repeats it.
+void judge_repeat(const std::vector<ExportFormat>& formats, const ExportOptions& options,
+                  std::vector<std::string>& warnings) {
+  if (options.repeat == 1) return;
+  std::vector<std::string> once;
+  for (const ExportFormat& format : formats) {
+    if (!format.repeated) once.emplace_back(format.name);
+  }
+  if (once.empty()) return;
+  warnings.push_back(
+      fmt::format("--repeat {} is of exr alone: {} {} the map once; --size is of all files",
+                  options.repeat, join_names(once), once.size() > 1 ? "hold" : "holds"));
+}
+
 }  // namespace
 
 std::string lost_between_pixels(const Texture& texture, const Grid& grid) {
@@ -248,6 +262,7 @@ Export prepared(Texture drawn, const ExportOptions& options,
     out.cells_y = static_cast<int>(std::lround(grid.ly / cell.ly));
   }
   judge_size(out, options);
+  judge_repeat(formats, options, out.warnings);
   return out;
 }
 

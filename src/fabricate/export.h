@@ -30,7 +30,7 @@ struct ExportOptions {
   double size_y = 0;                 // of a rectangle; 0: as wide as high
   int pixels = 1024;                 // along x
   std::optional<Polarity> polarity;  // needed for tiff and mask
-  int repeat = 1;                    // EXR: times in x and y, streamed
+  int repeat = 1;                    // EXR alone: times in x and y, streamed
   int levels = 1;                    // layouts of textures that are no arrays: masks
   double facet_error = 2e-9;         // layouts: of circles [m]
   ProcessBias bias;

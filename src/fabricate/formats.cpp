@@ -90,6 +90,7 @@ constexpr ExportFormat kFormats[]{
     {.name = "exr",
      .file = "heightmap.exr",
      .holds = "heights in um, 32-bit float, high is bright",
+     .repeated = true,
      .judged = 1,
      .write = exr,
      .check = check_exr},

@@ -29,6 +29,7 @@ struct ExportFormat {
   bool needs_outline = false;     // edges that polygons follow
   bool follows_outline = false;   // of a relief; what is flat has none and is drawn all the same
   bool needs_dose_curve = false;  // depth over grey
+  bool repeated = false;          // its map stands there so many times: ExportOptions::repeat
   bool asked_only = false;        // not among the files of an export that names no formats
   int judged = 0;                 // when its heights are simulated again, 1 first; 0: never
   void (*write)(const ExportSource& source, const std::string& path, Export& out) = nullptr;

@@ -326,6 +326,7 @@ class Drawing {
         std::vector<LayoutCell> cells =
             e.etch.array ? array_cells(e.cell, *e.etch.array, level_of(e), shape_)
                          : contour_cells(e.cell, e.etch, level_of(e), shape_);
+        check_reach(plan_.treatments[e.treatment].name, cells.back());
         if (e.etch.array) {
           out_.arrays.push_back(
               {plan_.treatments[e.treatment].name, cells.front().name, *e.etch.array});
@@ -334,6 +335,17 @@ class Drawing {
       });
     }
     mistakes.tell();
+  }
+  // Whole periods that are nearly as wide as the pad, around its middle: long ones reach beyond it.
+  void check_reach(const std::string& design, const LayoutCell& pad) const {
+    const LayoutReference& corner = pad.references.front();
+    const double over = std::max(-1e-9 * corner.x - 0.5 * shape_.pad_width,
+                                 -1e-9 * corner.y - 0.5 * shape_.pad_height);
+    if (over <= 1e-9 * kCornersBegin) return;
+    throw InputError(fmt::format(
+        "{}: its whole periods reach {:.4g} um beyond the pad, onto the corners that begin {:.4g} "
+        "um beside it; make wafer.pad_width and wafer.pad_height whole numbers of periods",
+        design, 1e6 * over, 1e-3 * kCornersBegin));
   }
   std::string label_of(const WaferField& field) const {
     return field.id + " " + plan_.treatments[field.treatment].name;
@@ -407,6 +419,33 @@ class Drawing {
                               .y = on_nanometres(nearest.second) - (alone ? kBelow : 0)});
     for (const double sx : {-1.0, 1.0}) {
       for (const double sy : {-1.0, 1.0}) place_corner(top, all, sx, sy);
+    }
+    check_marks(top);
+  }
+  // Marks that stand on each other align and measure nothing.
+  void check_marks(const LayoutCell& top) const {
+    struct Mark {
+      std::int32_t x, y, reach_x, reach_y;
+    };
+    std::vector<Mark> marks;
+    for (const LayoutReference& r : top.references) {
+      if (r.cell == "SIZES") marks.push_back({r.x, r.y, kSizesReach, kSizesHigh});
+      if (r.cell.starts_with("ALIGN_")) marks.push_back({r.x, r.y, kMarkReach, kMarkReach});
+    }
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const Mark &a = marks[i], &b = marks[j];
+        if (std::abs(a.x - b.x) >= a.reach_x + b.reach_x ||
+            std::abs(a.y - b.y) >= a.reach_y + b.reach_y)
+          continue;
+        const auto between = static_cast<std::int32_t>(out_.levels.size() - 1) * kMarkPitch;
+        throw InputError(fmt::format(
+            "{} masks, whose alignment crosses reach {:.4g} mm inwards from each corner: on {} x "
+            "{} fields, {:.4g} mm from one to the next, they stand on each other or on the bars of "
+            "known width; larger pads or gaps, more rows, or fewer depths",
+            out_.levels.size(), 1e-6 * (between + kMarkReach), plan_.columns, plan_.rows,
+            1e3 * plan_.pitch_y));
+      }
     }
   }
   // Crosses at the outermost crossing of a quarter, one above the other from it inwards.

@@ -36,13 +36,13 @@ std::vector<LayoutReference> written(const std::string& word, std::int32_t x, st
 }
 
 LayoutCell pad_corners(std::int32_t width, std::int32_t height) {
-  constexpr std::int32_t kFar = 50 * kMicrometre, kLong = 200 * kMicrometre,
-                         kWide = 20 * kMicrometre;
+  constexpr std::int32_t kLong = 200 * kMicrometre, kWide = 20 * kMicrometre;
   LayoutCell out{"PAD_CORNERS", {}, {}};
   for (const int sx : {-1, 1}) {
     for (const int sy : {-1, 1}) {
       // The inner corner of the angle, and how far its legs go back along the pad.
-      const std::int32_t x = sx * (width / 2 + kFar), y = sy * (height / 2 + kFar);
+      const std::int32_t x = sx * (width / 2 + kCornersBegin),
+                         y = sy * (height / 2 + kCornersBegin);
       const auto between = [](std::int32_t a, std::int32_t b) {
         return std::pair(std::min(a, b), std::max(a, b));
       };
@@ -58,12 +58,12 @@ LayoutCell pad_corners(std::int32_t width, std::int32_t height) {
 }
 
 LayoutCell alignment_mark(int level) {
-  constexpr std::int32_t kArm = 100 * kMicrometre, kHalfWide = 10 * kMicrometre,
-                         kClear = 5 * kMicrometre, kSquare = 60 * kMicrometre;
+  constexpr std::int32_t kHalfWide = 10 * kMicrometre, kClear = 5 * kMicrometre,
+                         kSquare = 60 * kMicrometre;
   LayoutCell out{fmt::format("ALIGN_{}", level), {}, {}};
-  out.polygons.push_back(bar(1, -kArm, -kHalfWide, kArm, kHalfWide));
-  out.polygons.push_back(bar(1, -kHalfWide, kHalfWide, kHalfWide, kArm));
-  out.polygons.push_back(bar(1, -kHalfWide, -kArm, kHalfWide, -kHalfWide));
+  out.polygons.push_back(bar(1, -kMarkReach, -kHalfWide, kMarkReach, kHalfWide));
+  out.polygons.push_back(bar(1, -kHalfWide, kHalfWide, kHalfWide, kMarkReach));
+  out.polygons.push_back(bar(1, -kHalfWide, -kMarkReach, kHalfWide, -kHalfWide));
   if (level == 1) return out;
   constexpr std::int32_t kFrom = kHalfWide + kClear, kTo = kFrom + kSquare;
   for (const auto& [x0, x1] : {std::pair{kFrom, kTo}, {-kTo, -kFrom}}) {

@@ -188,6 +188,13 @@ class Matcher {
       if (f.field == field) here.push_back(&f);
     }
     if (here.empty()) return unknown("field", field, known);
+    for (const FieldEntry* f : here) {
+      if (f->design != here.front()->design)
+        return problem("field", fmt::format("{} is a label of two fields of lab.toml, with {} and "
+                                            "{}: tell it by its experiment, or by its design and "
+                                            "conditions",
+                                            field, here.front()->design, f->design));
+    }
     out.field = field;
     out.experiment.design = design_index(here.front()->design);
     check_design(field, row, out);

@@ -147,6 +147,7 @@ class LabOpener {
     const MeasuredTable table = read_measured_table(read_bytes(path, std::size_t{1} << 26), path);
     std::vector<Problem> problems;
     std::map<std::string, std::size_t> known;
+    std::map<std::string, std::string> held;  // design of each field
     for (const MeasuredRow& row : table.rows) {
       const auto problem = [&](const char* key, const std::string& message) {
         problems.push_back({path, row.line, 0, key, message});
@@ -156,6 +157,9 @@ class LabOpener {
       if (!row.load) problem("load", "a row without a load");
       if (!row.relative_humidity) problem("humidity", "a row without a humidity");
       if (row.field.empty() || row.design.empty() || !row.load || !row.relative_humidity) continue;
+      if (const auto& there = held.emplace(row.field, row.design).first->second;
+          there != row.design)
+        problem("design", fmt::format("{} holds {} in a line before", row.field, there));
       if (!known.count(row.design)) {
         const std::string at = (fs::path(path).parent_path() / row.design).string();
         try {
@@ -170,7 +174,31 @@ class LabOpener {
                                row.frequency.value_or(0), row.state.value_or(FingerState::Clean)});
     }
     if (!problems.empty()) throw InputError(problems);
+    keep_labels_apart(path, held);
     for (const std::string& n : table.notes) note(fs::path(path).filename().string() + ": " + n);
+  }
+
+  // A reading is told by the label of its field: what two wafers have alike could be of either.
+  void keep_labels_apart(const std::string& path, const std::map<std::string, std::string>& held) {
+    std::vector<std::string> alike;
+    std::string other;
+    for (const auto& [label, design] : held) {
+      const auto [known, is_new] = labels_.emplace(label, path);
+      if (is_new) continue;
+      alike.push_back(label);
+      other = known->second;
+    }
+    if (alike.empty()) return;
+    constexpr std::size_t kShown = 3;
+    const std::size_t more = alike.size() - std::min(alike.size(), kShown);
+    alike.resize(alike.size() - more);
+    throw InputError({Problem{
+        path, 0, 0, "field",
+        fmt::format("{}{}: also on the wafer of {}; a reading that is told by its field could "
+                    "be of either. Open a lab for each wafer, or name a copy of this "
+                    "manifest, beside it, with labels of its own (2{})",
+                    join_names(alike), more > 0 ? fmt::format(" and {} more", more) : "", other,
+                    alike.front())}});
   }
 
   std::size_t same_or_new(const std::string& name, const Design& design) {
@@ -336,6 +364,7 @@ class LabOpener {
   LabOpening out_;
   std::vector<Design> designs_;
   std::vector<std::string> opened_with_;
+  std::map<std::string, std::string> labels_;  // of fields, and the manifest of each
   std::string belief_;
   bool calibrated_ = false;
   struct Built {

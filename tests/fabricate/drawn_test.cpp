@@ -79,6 +79,21 @@ TEST(Period, OfALayoutIsTheNearestNanometreAndSaidToBe) {
 
 // A quarter of the smallest hole or wall a pixel, else a warning that says how many would do; half
 // of it, else no mask.
+TEST(Repeat, SaysWhichFilesHoldTheMapOnce) {
+  ExportOptions options = options_of("exr", 64, 12e-6);
+  const auto warnings = [&] { return Drawn(Texture{holes_of(6e-6, 3e-6)}, options).out.warnings; };
+  options.repeat = 4;
+  EXPECT_EQ(warnings(), std::vector<std::string>{});
+  options.formats = {"exr", "gds"};
+  EXPECT_EQ(warnings(), std::vector<std::string>{"--repeat 4 is of exr alone: gds holds the map "
+                                                 "once; --size is of all files"});
+  options.formats = {"gsf", "exr", "oasis"};
+  EXPECT_EQ(warnings(), std::vector<std::string>{"--repeat 4 is of exr alone: gsf, oasis hold the "
+                                                 "map once; --size is of all files"});
+  options.repeat = 1;
+  EXPECT_EQ(warnings(), std::vector<std::string>{});
+}
+
 TEST(Pixels, AreFourAcrossTheSmallestFeatureOrAreSaidToBeTooFew) {
   const Texture holes{holes_of(6e-6, 5.19e-6)};  // walls of 810 nm
   for (const auto& [pixels, warned] : {std::pair{60, false}, {58, true}}) {

@@ -1,4 +1,5 @@
 // Test wafers: what stands where, what is drawn, what is to be measured.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -152,10 +153,12 @@ TEST(Wafer, LabelsOfSmallPadsEndBeforeTheSizesBetweenThem) {
   const Wafer wafer(small + "\"333 um\"\n");
   std::map<std::string, const LayoutCell*> cells;
   for (const LayoutCell& cell : wafer.drawing.layout.cells) cells[cell.name] = &cell;
-  std::int32_t left = 0, right = 0;
+  std::int32_t left = 0, right = 0, low = 0;
   for (const LayoutPolygon& p : cells.at("SIZES")->polygons) {
     for (const std::int32_t x : p.outline.x) left = std::min(left, x), right = std::max(right, x);
+    for (const std::int32_t y : p.outline.y) low = std::min(low, y);
   }
+  EXPECT_EQ(low, -kSizesHigh);
   EXPECT_EQ(left, -kSizesReach);
   EXPECT_EQ(right, kSizesReach);
   // They stand at the crossing of streets half a pitch from a field; a label ends as far before its
@@ -186,6 +189,56 @@ TEST(Wafer, LabelsOfSmallPadsEndBeforeTheSizesBetweenThem) {
             std::string::npos)
       << refused("334 um");
   EXPECT_NE(refused("410 um"), "");
+}
+
+// Of a die of one field, 1.35 mm from corner to corner: crosses of two masks reach 0.4 mm inwards
+// from each, those of three 0.7 mm.
+TEST(Wafer, RefusesSmallDiesWhoseCrossesWouldStandOnEachOther) {
+  const auto refused = [](int masks, int rows) {
+    const Workplace place;
+    const std::string list = fmt::format(
+        "schema_version = 1\n[wafer]\npad_width = \"0.15 mm\"\npad_height = \"0.15 mm\"\ngap = "
+        "\"1.2 "
+        "mm\"\nlabel = \"20 um\"\nrepeats = {}\nflats = 0\nreferences = 0\ncolumns = 1\nrows = {}\n"
+        "levels = {}\n",
+        rows, rows, masks);
+    place.write("d.toml", array_design("waves", "period = \"10 um\"\n"));
+    place.write("list.toml", list + "[[design]]\nfile = \"d.toml\"\n");
+    return refusal_of([&] { draw_wafer(plan_wafer((place.path() / "list.toml").string())); });
+  };
+  EXPECT_EQ(refused(2, 1), "");
+  EXPECT_NE(
+      refused(3, 1).find("3 masks, whose alignment crosses reach 0.7 mm inwards from each "
+                         "corner: on 1 x 1 fields, 1.35 mm from one to the next, they stand on "
+                         "each other"),
+      std::string::npos)
+      << refused(3, 1);
+  // Of two rows the bars stand half-way between the corners of one side.
+  EXPECT_EQ(refused(4, 2), "");
+  EXPECT_NE(refused(5, 2).find("5 masks"), std::string::npos) << refused(5, 2);
+  EXPECT_EQ(refused(5, 4), "");
+}
+
+// Two periods of 400 um are the whole number of them nearest to these pads.
+TEST(Wafer, RefusesTexturesThatReachTheCornersOfTheirPad) {
+  const auto refused = [](const char* pad) {
+    const Workplace place;
+    place.write("d.toml",
+                array_design("hole_array",
+                             "period = \"400 um\"\ndiameter = \"200 um\"\ndepth = \"10 um\"\n",
+                             "[model]\nwater = \"threshold\"\n"));
+    place.write("list.toml", std::string("schema_version = 1\n[wafer]\npad_width = \"") + pad +
+                                 "\"\npad_height = \"" + pad +
+                                 "\"\nlabel = \"20 um\"\n[[design]]\nname = \"H\"\nfile = "
+                                 "\"d.toml\"\n");
+    return refusal_of([&] { draw_wafer(plan_wafer((place.path() / "list.toml").string())); });
+  };
+  EXPECT_EQ(refused("800 um"), "");
+  EXPECT_EQ(refused("720 um"), "");  // 40 um beyond it, before the corners
+  EXPECT_NE(refused("640 um").find("H: its whole periods reach 80 um beyond the pad, onto the "
+                                   "corners that begin 50 um beside it"),
+            std::string::npos)
+      << refused("640 um");
 }
 
 TEST(Wafer, HasAMaskForEachDepthOfWhichAllPolygonsAreDeep) {

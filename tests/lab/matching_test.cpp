@@ -152,6 +152,18 @@ TEST_F(Tell, RefusesADesignThatIsNotThatOfItsExperimentOrField) {
   EXPECT_EQ(told("experiment,design,F_off_N\nE01,a;b,0.1\n").experiment.design, 2u);
 }
 
+// A lab of an older program may hold two wafers whose labels are alike.
+TEST_F(Tell, RefusesALabelOfTwoFieldsWithDifferentDesigns) {
+  designs_.push_back({"flat", Design(), true});
+  lab_.fields = {field(0.2, 0.35), field(0.2, 0.35)};
+  EXPECT_EQ(told("field,F_off_N\nA3,0.1\n").experiment.design, 0u);
+  lab_.fields.back().design = "flat";
+  EXPECT_EQ(refused("field,F_off_N\nA3,0.1\n"),
+            "field: A3 is a label of two fields of lab.toml, with deep and flat: tell it by its "
+            "experiment, or by its design and conditions\n");
+  EXPECT_EQ(told("design,F_off_N\nflat,0.1\n").experiment.design, 1u);
+}
+
 TEST_F(Tell, RefusesOptionsThatContradictTheExperiment) {
   designs_.push_back({"flat", Design(), true});
   PlannedExperiment planned;

@@ -128,6 +128,33 @@ TEST_F(LabSources, SayTheConditionsOfFieldsInTheirManifestAlone) {
         << refused(option);
 }
 
+TEST_F(LabSources, AreRefusedWithAFieldOfTwoWafersOrDesigns) {
+  const std::string head = "field,design,load_N,humidity_percent,voltage_V,state\n";
+  copy("shallow.toml", "other/designs/shallow.toml");
+  write_text(own_.path() / "other/manifest.csv", head +
+                                                     "A2,designs/shallow.toml,0.2,35,200,clean\n"
+                                                     "A3,designs/shallow.toml,0.2,35,200,clean\n");
+  const auto refused = [&](const std::vector<std::string>& names) {
+    return keyed_refusal_of([&] { opened(names); });
+  };
+  EXPECT_EQ(refused({"wafer", "other"}),
+            "field: A2: also on the wafer of " + path("wafer") +
+                "/manifest.csv; a reading that is told by its field could be of either. Open a "
+                "lab for each wafer, or name a copy of this manifest, beside it, with labels of "
+                "its own (2A2)\n");
+  EXPECT_TRUE(refused({"wafer", "wafer"}).starts_with("field: A1, A2: also on the wafer of "));
+  write_text(own_.path() / "other/second.csv", head +
+                                                   "2A2,designs/shallow.toml,0.2,35,200,clean\n"
+                                                   "2A3,designs/shallow.toml,0.2,35,200,clean\n");
+  EXPECT_EQ(opened({"wafer", "other/second.csv"}).opening.file.fields.size(), 4u);
+  copy("deep.toml", "other/designs/deep.toml");
+  write_text(own_.path() / "other/manifest.csv", head +
+                                                     "A2,designs/shallow.toml,0.2,35,0,clean\n"
+                                                     "A2,designs/shallow.toml,0.2,35,200,clean\n"
+                                                     "A2,designs/deep.toml,0.2,75,200,clean\n");
+  EXPECT_EQ(refused({"other"}), "design: A2 holds designs/shallow.toml in a line before\n");
+}
+
 // "front/01" of the run and front_01.toml would be one file of the lab.
 TEST_F(LabSources, KeepEachDesignInAFileOfItsOwn) {
   copy("third.toml", "front_01.toml");
