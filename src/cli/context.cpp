@@ -10,6 +10,7 @@
 #include "base/folder.h"
 #include "base/text.h"
 #include "design/scans.h"
+#include "design/title.h"
 
 namespace papilla::cli {
 namespace {
@@ -71,11 +72,15 @@ void add_design_options(Command command, DesignOptions& options) {
 }
 
 Study DesignOptions::study() const {
-  if (base.empty()) return read_study(file, overrides);
-  if (file.ends_with(".toml"))
+  if (!base.empty() && file.ends_with(".toml"))
     throw InputError("--base: " + file + " is no scan; a design names its base, base = \"" + base +
                      "\"");
-  return read_study(base, scan_as_texture(file, overrides));
+  Study out = base.empty() ? read_study(file, overrides)
+                           : read_study(base, scan_as_texture(file, overrides));
+  const std::string title = title_as_set(out.design, overrides);
+  if (title != out.design.title) out.origins["title"] = Place{"--set", 0, 0};
+  out.design.title = title;
+  return out;
 }
 
 Option add_set_option(Command command, std::vector<std::string>& overrides) {

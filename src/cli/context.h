@@ -38,7 +38,8 @@ struct DesignOptions {
   std::vector<std::string> overrides;
   bool json = false;
 
-  Study study() const;  // as it is read; throws InputError
+  // As it is read; its title says what --set made of it. Throws InputError.
+  Study study() const;
 };
 void add_design_options(Command command, DesignOptions& options);
 

@@ -126,7 +126,9 @@ ExportOptions options_of(const ExportCommand& command) {
 int export_files(const Context& context, const ExportCommand& command) {
   refuse_of_other_formats(command);
   const ExportSourceFile source = source_of(command);
-  const Study study = read_study(source.design, command.design.overrides);
+  DesignOptions chosen = command.design;
+  chosen.file = source.design;
+  const Study study = chosen.study();
   if (source.rounded) {
     context.note(source.design +
                  ", on the grid of the fab as the build sheet has it; as the search left it: "
@@ -197,11 +199,13 @@ void add_export(Command app, Context& context) {
   const auto of_formats = [&](const Option& option, const std::vector<std::string>& formats) {
     options->of_formats.emplace_back(option, formats);
   };
-  of_formats(
-      command
-          .add_option("--repeat", options->repeat, "EXR: the map so many times each way, streamed")
-          .range(1, 4096),
-      {"exr"});
+  of_formats(command
+                 .add_option(
+                     "--repeat", options->repeat,
+                     "Of the EXR alone: the map so many times each way, streamed; --size is of all "
+                     "files")
+                 .range(1, 4096),
+             {"exr"});
   of_formats(
       command
           .add_option("--levels", options->levels, "Layout of a free form: layers, one per level")

@@ -13,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/scan_options.h"
 #include "design/scans.h"
+#include "design/title.h"
 #include "geometry/io/files.h"
 #include "rank/conditions.h"
 #include "report/ranking.h"
@@ -72,13 +73,16 @@ void check(const RankCommand& command) {
 
 // A region by its file: a design, or a scan that becomes the texture of the base.
 Design read_region(const std::string& file, const RankCommand& command) {
-  if (is_design(file)) return read_design(file, command.overrides);
-  if (command.base.empty()) {
+  const bool design = is_design(file);
+  if (!design && command.base.empty()) {
     throw InputError("\"" + file +
                      "\" is no design (.toml); scans are put into one: --base COMMON.toml, with "
                      "the coating, the finger and its air");
   }
-  return read_design(command.base, scan_as_texture(file, command.overrides));
+  Design out = design ? read_design(file, command.overrides)
+                      : read_design(command.base, scan_as_texture(file, command.overrides));
+  out.title = title_as_set(out, command.overrides);
+  return out;
 }
 
 // File stems, of the first region; with the folder where stems repeat.

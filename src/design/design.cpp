@@ -12,6 +12,7 @@
 #include "base/units.h"
 #include "config/reader.h"
 #include "config/writer.h"
+#include "design/title.h"
 #include "forward/counterface.h"
 #include "geometry/measured_map.h"
 #include "geometry/roughness.h"
@@ -264,7 +265,6 @@ std::vector<DesignProblem> design_problems(const Design& design) {
   for (const auto& [key, message] : problems(design.texture)) {
     out.push_back({"texture." + key, message});
   }
-  constexpr std::size_t kLongestTitle = 1000;  // it stands in every file and on every page
   if (design.title.size() > kLongestTitle)
     out.push_back({"title", "longer than 1000 letters; it is a line for reports"});
   environment_problems(design.environment, out);

@@ -117,6 +117,9 @@ std::vector<Part> study_reference() {
   std::vector<FieldRow> rows{
       key("base",
           "another file that lies below this one; found beside it, then in the designs folder"),
+      key("title",
+          "a line for reports, of a design too; behind it stands what `--set` of `evaluate`, "
+          "`explain`, `rank` and `export` makes another design: \"Holes; texture.depth 300 nm\""),
       key("design_space.\"PATH\" = [low, high]",
           "the search may change this number; PATH is any number of the design, e.g. "
           "texture.depth"),

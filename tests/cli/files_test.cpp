@@ -37,6 +37,23 @@ TEST(ShippedNames, AreFoundFromAnyFolder) {
   EXPECT_EQ(place.run("explain m3_samples/flat.toml").status, 2);
 }
 
+// --- what was set ---
+
+TEST(ExportCommand, CallsTheFilesOfADesignByWhatWasSetOfIt) {
+  const Workplace place;
+  const std::string how = "export " + kHoles + " --format gsf --pixels 64 --out ";
+  ASSERT_EQ(place.run(how + "own").status, 0);
+  ASSERT_EQ(place.run(how + "deep --set texture.depth=606nm").status, 0);
+  const auto title = [&](const std::string& folder) {
+    return json::parse(file_text(place.path() / folder / "export.json"))["title"]
+        .get<std::string>();
+  };
+  EXPECT_EQ(title("deep"), title("own") + "; texture.depth 606 nm");
+  EXPECT_NE(file_text(place.path() / "deep/heightmap.gsf").find("; texture.depth 606 nm\n"),
+            std::string::npos);
+  EXPECT_EQ(place.run("verify deep --geometry").status, 0);  // its record has the same title
+}
+
 // --- verify ---
 
 TEST(VerifyCommand, RefusesOfAWaferWhatIsOfRunsAndExports) {
