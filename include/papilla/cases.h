@@ -19,11 +19,13 @@ struct CaseInput {
 struct PerssonPoint {
   double voltage = 0, load = 0, frequency = 0;  // peak [V], [N], [Hz]
   bool collapsed = false;                       // no equilibrium below 1 GPa
-  double area_off = 0, area_on = 0;             // share of the nominal area in contact
-  double pressure = 0, pull = 0;                // total, time mean of the electrostatic part [Pa]
-  double mean_gap = 0;                          // [m]
-  double friction = 0, coefficient = 0;         // [N]
-  double capacitance = 0;                       // [F]
+  // The pressure is at the hardness or beyond: the numbers under voltage mean nothing.
+  bool yielded = false;
+  double area_off = 0, area_on = 0;      // share of the nominal area in contact
+  double pressure = 0, pull = 0;         // total, time mean of the electrostatic part [Pa]
+  double mean_gap = 0;                   // [m]
+  double friction = 0, coefficient = 0;  // [N]
+  double capacitance = 0;                // [F]
 };
 
 struct PerssonResult {

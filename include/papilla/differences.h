@@ -32,9 +32,10 @@ struct Comparison {
   Difference mean_modulation, mean_friction;  // over humidity
 };
 
-// Both designs at one level, on common skins; the options hold for both. With a target each takes
-// the grid and the skins that it needs, and differences are not paired where these differ. Throws
-// InputError, also for designs whose humidities differ; Stopped.
+// Both designs at one level, by the grid and the seed of the first, on common skins; the options
+// hold for both. With a target both take the grid and the skins of the one that needs more, and the
+// other is evaluated once again. Throws InputError, also for designs whose humidities differ;
+// Stopped.
 Comparison compare(const Design& first, const Design& second, const EvaluateOptions& options = {});
 
 struct SensitivityOptions {
@@ -54,7 +55,8 @@ struct Sensitivity {
 };
 
 // Finite steps on common skins. metric: "mean(modulation)". A key that can move neither way is left
-// out. Cost: two evaluations a key. Throws InputError, Stopped.
+// out. With a target all are run by the grid and the skins that the design itself needs. Cost: two
+// evaluations a key. Throws InputError, Stopped.
 std::vector<Sensitivity> sensitivity(const Design& design, const std::string& metric,
                                      const SensitivityOptions& options = {});
 

@@ -7,6 +7,14 @@ namespace {
 
 using namespace py::literals;
 
+// Of each point whether it is so.
+py::array_t<bool> flags(const std::vector<PerssonPoint>& list, bool PerssonPoint::*member) {
+  py::array_t<bool> out(static_cast<py::ssize_t>(list.size()));
+  bool* at = out.mutable_data();
+  for (const PerssonPoint& p : list) *at++ = p.*member;
+  return out;
+}
+
 py::dict points(const std::vector<PerssonPoint>& list) {
   const auto of = [&](double PerssonPoint::*member) {
     return column(list, [&](const PerssonPoint& p) { return p.*member; });
@@ -17,7 +25,9 @@ py::dict points(const std::vector<PerssonPoint>& list) {
       "area_on"_a = of(&PerssonPoint::area_on), "pressure"_a = of(&PerssonPoint::pressure),
       "pull"_a = of(&PerssonPoint::pull), "mean_gap"_a = of(&PerssonPoint::mean_gap),
       "friction"_a = of(&PerssonPoint::friction), "coefficient"_a = of(&PerssonPoint::coefficient),
-      "capacitance"_a = of(&PerssonPoint::capacitance));
+      "capacitance"_a = of(&PerssonPoint::capacitance),
+      "collapsed"_a = flags(list, &PerssonPoint::collapsed),
+      "yielded"_a = flags(list, &PerssonPoint::yielded));
 }
 
 }  // namespace
@@ -30,9 +40,10 @@ void bind_cases(py::module_& module) {
             run_job([input = CaseInput{file, toml, values}](Job&) { return persson(input); });
         return py::dict(
             "rms"_a = r.rms, "slope"_a = r.slope, "contact_modulus"_a = r.contact_modulus,
-            "collapsed"_a = r.point.collapsed, "point"_a = points({r.point}),
-            "over_voltage"_a = points(r.over_voltage), "over_load"_a = points(r.over_load),
-            "over_frequency"_a = points(r.over_frequency), "json"_a = r.json, "table"_a = r.table);
+            "collapsed"_a = r.point.collapsed, "yielded"_a = r.point.yielded,
+            "point"_a = points({r.point}), "over_voltage"_a = points(r.over_voltage),
+            "over_load"_a = points(r.over_load), "over_frequency"_a = points(r.over_frequency),
+            "json"_a = r.json, "table"_a = r.table);
       },
       py::arg("file"), py::arg("toml"), py::arg("values"));
   module.def(

@@ -252,7 +252,8 @@ class Persson(_Case):
 
     ``point``, ``over_voltage``, ``over_load`` and ``over_frequency`` are dicts of arrays: voltage [V], load [N],
     frequency [Hz], area_off, area_on (shares), pressure and pull [Pa], mean_gap [m], friction [N], coefficient,
-    capacitance [F].
+    capacitance [F]; collapsed (no equilibrium below 1 GPa) and yielded (the pressure is at the hardness or beyond: the
+    numbers under voltage mean nothing) are arrays of bool.
     """
 
     def __init__(self, columns: dict[str, Any]) -> None:
@@ -261,10 +262,11 @@ class Persson(_Case):
         self.slope: float = columns["slope"]
         self.contact_modulus: float = columns["contact_modulus"]
         self.collapsed: bool = columns["collapsed"]
-        self.point: dict[str, float] = {name: float(column[0]) for name, column in columns["point"].items()}
-        self.over_voltage: dict[str, FloatArray] = columns["over_voltage"]
-        self.over_load: dict[str, FloatArray] = columns["over_load"]
-        self.over_frequency: dict[str, FloatArray] = columns["over_frequency"]
+        self.yielded: bool = columns["yielded"]
+        self.point: dict[str, float] = {name: column[0].item() for name, column in columns["point"].items()}
+        self.over_voltage: dict[str, npt.NDArray[Any]] = columns["over_voltage"]
+        self.over_load: dict[str, npt.NDArray[Any]] = columns["over_load"]
+        self.over_frequency: dict[str, npt.NDArray[Any]] = columns["over_frequency"]
 
 
 class Drive(_Case):

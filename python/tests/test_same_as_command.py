@@ -116,6 +116,17 @@ def test_cases_are_those_of_the_command(piece: str, file: str) -> None:
     assert mine == printed
 
 
+def test_points_that_yield_are_those_of_the_command() -> None:
+    values = {"skin.hardness": "100 kPa", "drive.amplitude": "200 V", "sweep.voltage": ["0 V", "200 V"]}
+    mine = pp.persson(ROOT / "designs/physics/wrist_on_glass.toml", values)
+    assert mine.yielded is True and mine.point["yielded"] is True
+    assert mine.over_voltage["yielded"].tolist() == [False, True]
+    for sweep in ("over_voltage", "over_load", "over_frequency"):
+        printed = mine.to_dict()[sweep]
+        for name in ("yielded", "collapsed"):
+            assert getattr(mine, sweep)[name].tolist() == [p[name] for p in printed]
+
+
 def test_ranking_is_that_of_the_command() -> None:
     names = [f"designs/m3_samples/{n}.toml" for n in ("flat", "a3h350")]
     changes = {"accuracy.level": "draft", "accuracy.grid": 48, "environment.relative_humidity": ["50 %"]}

@@ -13,9 +13,10 @@ namespace {
 
 PerssonPoint point_of(const MeanFieldPoint& p) {
   const PullState& pull = p.on.pull;
-  return {p.voltage,     p.load,        p.frequency,      pull.status == PullStatus::Collapsed,
-          p.area_off,    pull.area,     pull.pressure,    pull.pull,
-          pull.mean_gap, p.on.friction, p.on.coefficient, p.capacitance};
+  return {p.voltage,    p.load,        p.frequency,   pull.status == PullStatus::Collapsed,
+          p.yielded,    p.area_off,    pull.area,     pull.pressure,
+          pull.pull,    pull.mean_gap, p.on.friction, p.on.coefficient,
+          p.capacitance};
 }
 
 std::vector<PerssonPoint> points_of(const std::vector<MeanFieldPoint>& points) {

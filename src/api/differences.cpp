@@ -1,5 +1,6 @@
 #include "papilla/differences.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -26,6 +27,30 @@ EvaluateOptions common(EvaluateOptions options, const Design& design) {
   return options;
 }
 
+// Enough for both.
+Fidelity finer(const Fidelity& a, const Fidelity& b) {
+  Fidelity out = a;
+  out.grid = std::max(a.grid, b.grid);
+  out.skins = std::max(a.skins, b.skins);
+  if (b.estimator == Estimator::Area) out.estimator = Estimator::Area;
+  return out;
+}
+
+// Both on the skins, droplets and grids of the first; of a target on those of the one that needs
+// more.
+std::pair<Response, Response> on_common_skins(const rooms::Design& first, rooms::Design second,
+                                              const EvaluateOptions& options) {
+  second.accuracy.grid = first.accuracy.grid;
+  second.accuracy.seed = first.accuracy.seed;
+  second.accuracy.droplet_seeds = first.accuracy.droplet_seeds;
+  std::pair<Response, Response> out{evaluated(first, options), evaluated(second, options)};
+  const auto fidelity = [](const Response& r) { return r.inside().response.fidelity; };
+  const Fidelity both = finer(fidelity(out.first), fidelity(out.second));
+  if (fidelity(out.first) != both) out.first = evaluated(first, options, both);
+  if (fidelity(out.second) != both) out.second = evaluated(second, options, both);
+  return out;
+}
+
 rooms::Design moved(rooms::Design design, const std::string& path, double value) {
   set_number(design, path, value);
   return design;
@@ -39,7 +64,9 @@ Comparison compare(const Design& first, const Design& second, const EvaluateOpti
       throw wrong("environment.relative_humidity", "compared designs meet the same humidities");
     }
     const EvaluateOptions both = common(options, first);
-    Comparison out{evaluate(first, both), evaluate(second, both), {}, {}, {}};
+    auto [of_first, of_second] =
+        on_common_skins(at_options(first, both), at_options(second, both), both);
+    Comparison out{std::move(of_first), std::move(of_second), {}, {}, {}};
     const rooms::Response &a = out.first.inside().response, &b = out.second.inside().response;
     const bool driven = a.driven && b.driven;
     for (std::size_t i = 0; i < a.points.size(); ++i) {
@@ -65,19 +92,21 @@ std::vector<Sensitivity> sensitivity(const Design& design, const std::string& me
     if (!(options.step > 0 && options.step < 1))
       throw wrong("step", "expected more than 0 and less than 1");
     const MetricExpression expression = parse_own_metric(metric);
-    // At its own target each end would choose its own grid and skins.
     const rooms::Design own = at_options(design, common(options.evaluate, design));
     Watch watch(options.evaluate.progress, options.evaluate.stop);
+    EvaluationOptions how{.target = options.evaluate.target,
+                          .fidelity = {},
+                          .model = false,
+                          .parameters = false,
+                          .appearance = false,
+                          .voltage_for = {},
+                          .threads = options.evaluate.threads};
+    // To a target each end would take a grid and skins of its own: both take the design's.
+    if (how.target > 0) how.fidelity = evaluate_design(own, how).fidelity;
     std::vector<Sensitivity> out;
     for (const std::string& key : options.keys.empty() ? texture_numbers(own) : options.keys) {
       const DesignStep step = design_step(own, key, options.step);
       if (!step.moves()) continue;
-      const EvaluationOptions how{.target = options.evaluate.target,
-                                  .model = false,
-                                  .parameters = false,
-                                  .appearance = false,
-                                  .voltage_for = {},
-                                  .threads = options.evaluate.threads};
       const ResponseDifference change =
           rooms::difference_of(expression, evaluate_design(moved(own, step.path, step.down), how),
                                evaluate_design(moved(own, step.path, step.up), how));

@@ -64,20 +64,23 @@ rooms::Design at_options(const Design& design, const EvaluateOptions& options) {
   return options.level.empty() ? own : at_level(own, options.level);
 }
 
+Response evaluated(const rooms::Design& design, const EvaluateOptions& options,
+                   const std::optional<Fidelity>& fidelity) {
+  Watch watch(options.progress, options.stop);
+  Response::Inside inside;
+  inside.response = evaluate_design(design, {.target = options.target,
+                                             .fidelity = fidelity,
+                                             .model = options.model,
+                                             .parameters = options.parameters,
+                                             .appearance = options.look,
+                                             .voltage_for = options.voltage_for,
+                                             .threads = options.threads});
+  for (const ResponsePoint& p : inside.response.points) inside.points.push_back(point_of(p));
+  return Response(std::make_shared<const Response::Inside>(std::move(inside)));
+}
+
 Response evaluate(const Design& design, const EvaluateOptions& options) {
-  return across([&] {
-    const rooms::Design own = at_options(design, options);
-    Watch watch(options.progress, options.stop);
-    Response::Inside inside;
-    inside.response = evaluate_design(own, {.target = options.target,
-                                            .model = options.model,
-                                            .parameters = options.parameters,
-                                            .appearance = options.look,
-                                            .voltage_for = options.voltage_for,
-                                            .threads = options.threads});
-    for (const ResponsePoint& p : inside.response.points) inside.points.push_back(point_of(p));
-    return Response(std::make_shared<const Response::Inside>(std::move(inside)));
-  });
+  return across([&] { return evaluated(at_options(design, options), options); });
 }
 
 }  // namespace papilla::api

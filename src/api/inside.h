@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "api/drawn_map.h"
@@ -35,6 +36,11 @@ struct Response::Inside {
 std::vector<std::string> overrides(const Design::Values& values);  // as files are read with
 // The design at the level of the options, checked as evaluate() does. Throws rooms::InputError.
 rooms::Design at_options(const Design& design, const EvaluateOptions& options);
+
+// Its response as evaluate() makes it; fidelity: of another response, in the place of a target or
+// level. Throws rooms::InputError, WorkStopped.
+Response evaluated(const rooms::Design& design, const EvaluateOptions& options,
+                   const std::optional<Fidelity>& fidelity = {});
 
 Look look_of(const Optics& optics);
 Heights heights_of(const Heightmap& map);

@@ -82,21 +82,17 @@ class Series {
       }
       return (n * sxy - sx * sy) / (n * sxx - sx * sx);
     };
-    const auto e = estimated(slope);
-    if (!e) return std::nullopt;
-    return Prediction{id, condition, "exponent", "", *e, values(number)};
+    return predicted(id, condition, "exponent", number, slope);
   }
 
   // The last over the first.
   std::optional<Prediction> ratio(const std::string& id, const std::string& condition,
                                   const Number& number) const {
-    const auto e = estimated([&](int without) -> std::optional<double> {
+    return predicted(id, condition, "ratio", number, [&](int without) -> std::optional<double> {
       const double first = number(point(0, without));
       if (!(first > 0)) return std::nullopt;
       return number(point(settings_.size() - 1, without)) / first;
     });
-    if (!e) return std::nullopt;
-    return Prediction{id, condition, "ratio", "", *e, values(number)};
   }
 
  private:
@@ -105,7 +101,10 @@ class Series {
     return without < 0 ? r.points.front() : r.without[static_cast<std::size_t>(without)].front();
   }
 
-  std::optional<Estimate> estimated(const std::function<std::optional<double>(int)>& of) const {
+  // Of what is made of the numbers of all skins (-1) and without each.
+  std::optional<Prediction> predicted(const std::string& id, const std::string& condition,
+                                      const std::string& quantity, const Number& number,
+                                      const std::function<std::optional<double>(int)>& of) const {
     const std::optional<double> all = of(-1);
     if (!all) return std::nullopt;
     std::vector<double> without;
@@ -114,7 +113,10 @@ class Series {
       if (!one) return std::nullopt;
       without.push_back(*one);
     }
-    return Estimate{*all, mean_estimate(jackknife_samples(*all, without)).se};
+    Prediction out{id, condition, quantity, "", {}, values(number)};
+    out.samples = jackknife_samples(*all, without);
+    out.value = {*all, mean_estimate(out.samples).se};
+    return out;
   }
 
   std::string values(const Number& number) const {

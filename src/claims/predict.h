@@ -24,10 +24,12 @@ struct Prediction {
   Estimate value;         // se: over skins
   std::string beside;     // the values behind it
   bool of_finger = true;  // false: a look, which hangs on none
-  // Standard deviation over the members of the finger's belief that have an answer here; nothing:
-  // it names no belief, too few have one, or the number hangs on no finger.
+  // Standard deviation over the members of the finger's belief that have an answer here, without
+  // what skins scatter it by; nothing: it names no belief, too few have one, or the number hangs on
+  // no finger.
   std::optional<double> model{};
-  int members = 0, silent = 0;  // of the belief; and those of them without an answer
+  int members = 0, silent = 0;    // of the belief; and those of them without an answer
+  std::vector<double> samples{};  // of the value, whose mean is it: one a skin; empty: not known
 };
 
 struct PredictOptions {
@@ -49,8 +51,9 @@ Design predicted_design(const Finger& finger, const std::string& sample,
                         const std::vector<std::string>& keys);
 
 // Adds what the finger's belief leaves of each: the spread of the same experiments over its
-// members, on few skins and pixels that are common to them (u_input of Eq. accuracy.16). Nothing
-// for a finger without belief. Cost: about twice that of the predictions.
+// members, on few skins and pixels that are common to them (u_input of Eq. accuracy.16), as much of
+// it as is meant and not the scatter of the skins (Eq. accuracy.18). Nothing for a finger without
+// belief. Cost: about twice that of the predictions.
 void add_model_parts(std::vector<Prediction>& predictions, const PredictOptions& options);
 // The same of what each member predicts, in the order of the belief.
 void take_model_parts(std::vector<Prediction>& predictions, const Belief& belief,

@@ -1,8 +1,10 @@
 // What belief leaves of the predictions.
 #include <algorithm>
+#include <cmath>
 
 #include "claims/members.h"
 #include "claims/predict.h"
+#include "metrics/metrics.h"
 
 namespace papilla::claims {
 namespace {
@@ -28,6 +30,24 @@ const Prediction* same(const std::vector<Prediction>& list, const Prediction& p)
   return found == list.end() ? nullptr : &*found;
 }
 
+// What each member moves a number by, from the mean of all, on each skin; none where skins are not
+// known.
+StepSamples moves_of(const std::vector<double>& weights, StepSamples samples) {
+  const std::size_t skins = samples.empty() ? 0 : samples.front().size();
+  double total = 0;
+  std::vector<double> mean(skins, 0);
+  for (std::size_t m = 0; m < samples.size(); ++m) {
+    if (samples[m].size() != skins) return {};
+    total += weights[m];
+    for (std::size_t k = 0; k < skins; ++k) mean[k] += weights[m] * samples[m][k];
+  }
+  for (std::size_t m = 0; m < samples.size(); ++m) {
+    for (std::size_t k = 0; k < skins; ++k)
+      samples[m][k] = std::sqrt(weights[m]) * (samples[m][k] - mean[k] / total);
+  }
+  return samples;
+}
+
 }  // namespace
 
 void add_model_parts(std::vector<Prediction>& predictions, const PredictOptions& options) {
@@ -47,14 +67,17 @@ void take_model_parts(std::vector<Prediction>& predictions, const Belief& belief
     p.members = static_cast<int>(members.size());
     if (!p.of_finger) continue;
     std::vector<double> values, weights;
+    StepSamples samples;
     for (std::size_t k = 0; k < members.size(); ++k) {
       const Prediction* there = same(members[k], p);
       if (!there) continue;
       values.push_back(there->value.value);
       weights.push_back(belief.members[k].weight);
+      samples.push_back(there->samples);
     }
     p.silent = p.members - static_cast<int>(values.size());
-    if (p.silent == 0 || values.size() >= kLeastMembers) p.model = deviation_over(weights, values);
+    if (p.silent == 0 || values.size() >= kLeastMembers)
+      p.model = deviation_over(weights, values) * meant_part(moves_of(weights, samples));
   }
 }
 

@@ -99,12 +99,11 @@ std::string time_text(const Design& design, const Fidelity& fidelity, const Plan
   const double seconds = measured_seconds(scene, design.texture, fidelity);
   std::string out = fmt::format("on this machine about {} of one core, as two of the skins tell",
                                 duration(seconds));
-  if (!design.finger.belief.empty()) {
-    const ModelCost cost = model_cost(design.finger, fidelity);
+  if (const ModelCost cost = model_cost(scene, fidelity); cost.members > 0) {
     const double share =
         cost.runs * make_plan(scene, design.texture, cost.fidelity).seconds() / plan.seconds();
     out += fmt::format(", and {} for the {} members of the finger's belief (--no-model: without)",
-                       duration(share * seconds), cost.runs - 1);
+                       duration(share * seconds), cost.members);
   }
   return out + '\n';
 }

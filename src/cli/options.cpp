@@ -112,14 +112,6 @@ Option Command::add_flag(const std::string& name, bool& variable,
   return Option(app_->add_flag(name, variable, meaning));
 }
 
-Option Command::add_numbers(const std::string& name, const std::function<void(int)>& set,
-                            const std::map<std::string, int>& words,
-                            const std::string& meaning) const {
-  return Option(app_->add_option_function<int>(name, set, meaning)
-                    ->type_name("ENUM")
-                    ->transform(CLI::Transformer(words)));
-}
-
 Command Command::add_alternatives(const std::string& name) const {
   CLI::Option_group* group = app_->add_option_group(name);
   group->require_option(1);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -70,15 +69,6 @@ class Command {
   template <typename T>
   Option add_option(const std::string& name, T& variable, const std::string& meaning) const;
   Option add_flag(const std::string& name, bool& variable, const std::string& meaning) const;
-  // A word for each value.
-  template <typename Enum>
-  Option add_choice(const std::string& name, Enum& variable,
-                    const std::map<std::string, Enum>& words, const std::string& meaning) const {
-    std::map<std::string, int> numbers;
-    for (const auto& [word, value] : words) numbers[word] = static_cast<int>(value);
-    return add_numbers(
-        name, [&variable](int number) { variable = static_cast<Enum>(number); }, numbers, meaning);
-  }
   // Exactly one of the options that are added to it must be given.
   Command add_alternatives(const std::string& name) const;
   void require_command() const;
@@ -101,8 +91,6 @@ class Command {
   std::vector<Command> commands() const;
 
  private:
-  Option add_numbers(const std::string& name, const std::function<void(int)>& set,
-                     const std::map<std::string, int>& words, const std::string& meaning) const;
   CLI::App* app_;
 };
 

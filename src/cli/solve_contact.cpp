@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -31,8 +30,7 @@ struct ContactCommand {
   std::string pressure, approach, modulus;
   std::string layer_modulus, layer_thickness, bulk_modulus, counter_modulus;
   double layer_poisson = 0.5, bulk_poisson = 0.5, counter_poisson = 0.4;
-  ContactMethod method = ContactMethod::Auto;
-  std::string hardness = "0 Pa", out_pressure, out_gap;
+  std::string method = "auto", hardness = "0 Pa", out_pressure, out_gap;
   double tolerance = 1e-8;
   int max_iterations = 1000;
   int threads = 1;
@@ -47,9 +45,11 @@ double positive(const std::string& text, const char* unit, const char* option) {
   return value;
 }
 
-const std::map<std::string, ContactMethod> kMethods{{"auto", ContactMethod::Auto},
-                                                    {"dense", ContactMethod::Dense},
-                                                    {"sparse", ContactMethod::Sparse}};
+ContactMethod method_of(const ContactCommand& c) {
+  return c.method == "dense"    ? ContactMethod::Dense
+         : c.method == "sparse" ? ContactMethod::Sparse
+                                : ContactMethod::Auto;
+}
 
 LayeredSolid skin_of(const ContactCommand& c) {
   if (!c.modulus.empty() == !c.layer_modulus.empty()) {
@@ -119,13 +119,13 @@ int solve(const ContactCommand& c) {
                                  kMostStrain));
   }
   const double approach = c.approach.empty() ? 0 : positive(c.approach, "nm", "--approach");
-  if (approach > 0 && c.method == ContactMethod::Sparse) {
-    throw InputError("the sparse method needs a load: --pressure");
-  }
   const ContactOptions options{.tolerance = c.tolerance,
                                .hardness = parse_si(c.hardness, "MPa"),
                                .max_iterations = c.max_iterations,
-                               .method = c.method};
+                               .method = method_of(c)};
+  if (approach > 0 && options.method == ContactMethod::Sparse) {
+    throw InputError("the sparse method needs a load: --pressure");
+  }
   if (options.hardness < 0) throw InputError("--hardness must not be negative");
   const auto [h, changes] = read_scan(c.scan.source());
   require_memory(150.0 * static_cast<double>(h.grid.size()), "a contact of " + c.scan.file);
@@ -156,9 +156,16 @@ void add_solve_contact(Command solve_command, Context& context) {
                   "Statistics of a stated spectrum over seeds, e.g. "
                   "designs/physics/rough_contact.toml")
       .type_name("CASE.toml");
+  c->of_case = {add_set_option(command, c->overrides),
+                command.add_option("--threads", c->threads, "Of a case; a surface takes one")
+                    .range(1, 1024)
+                    .show_default(),
+                command
+                    .add_option("--out", c->out,
+                                "Of a case: also the distributions of gaps and pressures as tables")
+                    .type_name("DIR")};
   command.add_option("--height", c->scan.file,
                      "Or a heightmap (.npy .gsf .exr .tif .x3p), high touches first");
-  c->of_case = {add_set_option(command, c->overrides)};
   c->of_height = add_scan_options(command, c->scan);
   const auto of_height = [&](const Option& option) {
     c->of_height.push_back(option);
@@ -169,35 +176,37 @@ void add_solve_contact(Command solve_command, Context& context) {
                                "Or the rigid approach from first touch: \"120 nm\""));
   of_height(
       command.add_option("--modulus", c->modulus, "E* of a homogeneous half-space: \"53 MPa\""));
-  of_height(
-      command.add_option("--layer-modulus", c->layer_modulus, "Young's modulus of the layer"));
+  of_height(command.add_option("--layer-modulus", c->layer_modulus,
+                               "Or a layer on a half-space: its Young's modulus"));
   c->of_layer = {
       of_height(command.add_option("--layer-poisson", c->layer_poisson, "Its Poisson ratio")
-                    .range(0.0, 0.5)),
+                    .range(0.0, 0.5)
+                    .show_default()),
       of_height(command.add_option("--layer-thickness", c->layer_thickness, "Its thickness")),
       of_height(command.add_option("--bulk-modulus", c->bulk_modulus, "Young's modulus below")),
       of_height(command.add_option("--bulk-poisson", c->bulk_poisson, "Poisson ratio below")
-                    .range(0.0, 0.5))};
+                    .range(0.0, 0.5)
+                    .show_default())};
   of_height(command.add_option("--counter-modulus", c->counter_modulus,
                                "Young's modulus of a compliant counter-body"));
   c->of_counter = {
       of_height(command.add_option("--counter-poisson", c->counter_poisson, "Its Poisson ratio")
-                    .range(0.0, 0.5))};
-  of_height(command.add_option("--hardness", c->hardness, "Cap on the pressure; 0: none"));
+                    .range(0.0, 0.5)
+                    .show_default())};
+  of_height(
+      command.add_option("--hardness", c->hardness, "Cap on the pressure; 0: none").show_default());
   of_height(
       command.add_option("--tolerance", c->tolerance, "On the certificate (docs/theory/contact.md)")
-          .range(1e-15, 0.1));
-  of_height(command.add_choice("--method", c->method, kMethods,
-                               "auto, dense (full grid) or sparse (light contact)"));
+          .range(1e-15, 0.1)
+          .show_default());
+  of_height(command
+                .add_option("--method", c->method,
+                            "dense: on the full grid; sparse: where little touches; auto: either")
+                .one_of({"auto", "dense", "sparse"})
+                .show_default());
   of_height(command.add_option("--max-iterations", c->max_iterations, "Before the solver gives up")
-                .range(1, 1000000));
-  c->of_case.push_back(
-      command.add_option("--threads", c->threads, "Of a case, one a surface").range(1, 1024));
-  c->of_case.push_back(
-      command
-          .add_option("--out", c->out,
-                      "Of a case: also the distributions of gaps and pressures as tables")
-          .type_name("DIR"));
+                .range(1, 1000000)
+                .show_default());
   of_height(command.add_option("--out-pressure", c->out_pressure, "Pressure [Pa] as .npy"));
   of_height(command.add_option("--out-gap", c->out_gap, "Gap [m] as .npy"));
   command.add_flag("--json", c->json, "One JSON object");

@@ -115,11 +115,14 @@ void add_model_errors(Response& response, const Scene& scene, const Texture& tex
     add_parameter_errors(response, scene, texture, fidelity);
 }
 
-ModelCost model_cost(const Finger& finger, const Fidelity& fidelity, int member_skins) {
-  if (finger.belief.empty())
-    return {2 * static_cast<int>(finger_steps(finger).size()), step_fidelity(fidelity)};
-  return {static_cast<int>(belief_of(finger).members.size()) + 1,
-          belief_fidelity(fidelity, member_skins)};
+ModelCost model_cost(const Scene& scene, const Fidelity& fidelity, int member_skins) {
+  const Finger& finger = scene.finger;
+  if (absent_belief(scene).empty()) {
+    const auto members = static_cast<int>(belief_of(finger).members.size());
+    return {members + 1, members, belief_fidelity(fidelity, member_skins)};
+  }
+  const auto steps = finger.uncertainty.empty() ? 0 : static_cast<int>(finger_steps(finger).size());
+  return {2 * steps, 0, step_fidelity(fidelity)};
 }
 
 }  // namespace papilla::estimate

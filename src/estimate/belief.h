@@ -42,10 +42,9 @@ void add_model_errors(Response& response, const Scene& scene, const Texture& tex
                       const Fidelity& fidelity, int member_skins = kMemberSkins);
 // The cost of add_model_errors: how many evaluations, and at which fidelity.
 struct ModelCost {
-  int runs = 0;
+  int runs = 0, members = 0;  // members: of belief; 0: the steps are run, or nothing is
   Fidelity fidelity;
 };
-ModelCost model_cost(const Finger& finger, const Fidelity& fidelity,
-                     int member_skins = kMemberSkins);
+ModelCost model_cost(const Scene& scene, const Fidelity& fidelity, int member_skins = kMemberSkins);
 
 }  // namespace papilla::estimate

@@ -11,9 +11,11 @@ namespace papilla::estimate {
 
 Response evaluate_design(const Design& design, const EvaluationOptions& options) {
   const Scene scene = scene_of(design);
-  Fidelity fidelity = fidelity_of(design);
+  Fidelity fidelity = options.fidelity.value_or(fidelity_of(design));
   fidelity.threads = options.threads;
-  const double target = options.target > 0 ? options.target : design.accuracy.target;
+  const double target = options.fidelity     ? 0
+                        : options.target > 0 ? options.target
+                                             : design.accuracy.target;
   Response response = target > 0 ? evaluate_to_target(scene, design.texture,
                                                       {.target = target,
                                                        .seed = fidelity.seed,

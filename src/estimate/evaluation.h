@@ -1,6 +1,7 @@
 // A design evaluated as it asks for itself: the one way of the program and of the library.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/rooms.h"
@@ -11,6 +12,8 @@ namespace papilla::estimate {
 
 struct EvaluationOptions {
   double target = 0;  // relative standard error; 0: the design's target, or its level
+  // In the place of both: that of another response, which this one is compared with.
+  std::optional<Fidelity> fidelity{};
   bool model = true;  // what is not known of finger and model, where the finger names a belief
   bool parameters = false;  // without belief: also the error that the finger's fitted numbers leave
   bool appearance = false;

@@ -147,7 +147,7 @@ std::vector<double> Candidate::member_weights() const {
 
 void Candidate::step() {
   const bool believed = !scene_.finger.belief.empty();
-  Fidelity few = model_cost(scene_.finger, fidelity_of(design_)).fidelity;
+  Fidelity few = model_cost(scene_, fidelity_of(design_)).fidelity;
   few.threads = options_.threads;
   const auto moved = [&](const std::function<void(Scene&)>& move) {
     Scene scene = scene_;

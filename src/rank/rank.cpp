@@ -322,12 +322,9 @@ std::string touching_of(const std::vector<Regions>& candidates, FingerState stat
 void plan_steps(const std::vector<Regions>& candidates, Ranking& out) {
   if (const std::string why = parameters_unknown(candidates); !why.empty()) throw InputError(why);
   const Design& first = candidates.front().front();
-  const Finger finger = scene_of(first).finger;
-  const ModelCost cost = model_cost(finger, fidelity_of(first));
-  if (finger.belief.empty())
-    out.directions = static_cast<int>(finger_steps(finger).size());
-  else
-    out.members = cost.runs - 1;
+  const ModelCost cost = model_cost(scene_of(first), fidelity_of(first));
+  out.members = cost.members;
+  if (cost.members == 0) out.directions = cost.runs / 2;
   out.step_skins = cost.fidelity.skins;
   out.step_grid = cost.fidelity.grid;
 }

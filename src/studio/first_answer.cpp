@@ -90,9 +90,9 @@ Fidelity quick_fidelity(const Design& design) {
 }
 
 Anchor anchor_of(const Design& design, Response refined) {
-  const Fidelity fidelity = quick_fidelity(design);
+  KeptPatches kept;  // the laws and the answer by them are of the same patches
   Anchor out{design,
-             solve_patches(scene_of(design), design.texture, fidelity).laws,
+             kept.solve(scene_of(design), design.texture, quick_fidelity(design)).laws,
              {},
              std::move(refined)};
   const auto sound = [](const AttractionLaw& law) { return law.status.sound(); };
@@ -103,7 +103,7 @@ Anchor anchor_of(const Design& design, Response refined) {
   for (LoadLaws& laws : out.laws) {
     for (AttractionLaw& law : laws) law.sampled_off *= kBeyond, law.sampled_on *= kBeyond;
   }
-  out.quick = quick_answer(design, &out);
+  out.quick = quick_answer(design, &out, &kept);
   return out;
 }
 

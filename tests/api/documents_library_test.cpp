@@ -156,6 +156,47 @@ TEST(ComparisonOfTheLibrary, IsTheSecondLessTheFirst) {
             "environment.relative_humidity: compared designs meet the same humidities");
 }
 
+// The second meets the skins and the grid of the first, whatever its file says of its own.
+TEST(ComparisonOfTheLibrary, MeetsTheSkinsOfTheFirst) {
+  const papilla::Design first = papilla::Design::parse(kSmall).with("environment.relative_humidity",
+                                                                    "[\"30 %\"]"),
+                        second = first.with("texture.depth", "500 nm");
+  papilla::EvaluateOptions options;
+  options.model = false;
+  const auto of = [&](const papilla::Design& other) {
+    return papilla::compare(first, other, options).points.at(0).modulation;
+  };
+  const papilla::Difference same = of(second),
+                            others = of(second.with({{"accuracy.seed", "7"},
+                                                     {"accuracy.grid", "64"},
+                                                     {"accuracy.droplet_seeds", "2"}}));
+  EXPECT_TRUE(others.paired);
+  EXPECT_EQ(others.value, same.value);
+  EXPECT_EQ(others.error, same.error);
+}
+
+// A deep texture takes more skins to a target than a shallow one: both meet those.
+TEST(ComparisonOfTheLibrary, IsPairedAtATarget) {
+  const papilla::Design first = papilla::Design::parse(kSmall).with(
+                            {{"environment.relative_humidity", "[\"30 %\"]"},
+                             {"drive.amplitude", "90 V"}}),
+                        second = first.with("texture.depth", "3 um");
+  papilla::EvaluateOptions options = options_of("", 0.1);
+  options.model = false;
+  const auto plan = [](const papilla::Response& r) { return Json::parse(r.json())["fidelity"]; };
+  const Json alone = plan(papilla::evaluate(first, options)),
+             other = plan(papilla::evaluate(second, options));
+  ASSERT_NE(alone, other);
+  const papilla::Comparison c = papilla::compare(first, second, options);
+  EXPECT_EQ(plan(c.first), plan(c.second));
+  EXPECT_GE(plan(c.first)["skins"], std::max(alone["skins"], other["skins"]));
+  EXPECT_GE(plan(c.first)["grid"], std::max(alone["grid"], other["grid"]));
+  EXPECT_TRUE(c.points.at(0).modulation.paired);
+  EXPECT_TRUE(c.mean_friction.paired);
+  EXPECT_NEAR(c.points[0].modulation.value,
+              c.second.points()[0].modulation.value - c.first.points()[0].modulation.value, 1e-12);
+}
+
 TEST(SensitivityOfTheLibrary, IsTheChangeOverTheStep) {
   const papilla::Design design =
       papilla::Design::parse(kSmall).with("environment.relative_humidity", "[\"30 %\"]");
@@ -194,6 +235,35 @@ TEST(SensitivityOfTheLibrary, IsPairedAtATargetOfTheDesign) {
   EXPECT_EQ(aimed.change.error, plain.change.error);
 }
 
+// The ends of so large a step would take unlike numbers of skins to the target.
+TEST(SensitivityOfTheLibrary, IsPairedAtATargetThatIsAskedFor) {
+  const papilla::Design design =
+      papilla::Design::parse(kSmall).with({{"environment.relative_humidity", "[\"30 %\"]"},
+                                           {"drive.amplitude", "90 V"},
+                                           {"texture.depth", "1.6 um"}});
+  papilla::SensitivityOptions options;
+  options.keys = {"texture.depth"};
+  options.step = 0.9;
+  options.evaluate = options_of("", 0.1);
+  const papilla::Sensitivity s = papilla::sensitivity(design, "mean(modulation)", options).at(0);
+  EXPECT_TRUE(s.change.paired);
+}
+
+// A skin that carries the load may yield under the pull: what the command says of each point.
+TEST(CasesOfTheLibrary, SayWhichPointsYieldEverywhere) {
+  const papilla::PerssonResult r =
+      papilla::api::persson({"physics/wrist_on_glass.toml",
+                             "",
+                             {{"skin.hardness", "100 kPa"},
+                              {"drive.amplitude", "200 V"},
+                              {"sweep.voltage", "[\"0 V\", \"200 V\"]"}}});
+  EXPECT_TRUE(r.point.yielded);
+  ASSERT_EQ(r.over_voltage.size(), 2u);
+  EXPECT_FALSE(r.over_voltage[0].yielded);
+  EXPECT_TRUE(r.over_voltage[1].yielded);
+  EXPECT_EQ(Json::parse(r.json)["over_voltage"][1]["yielded"], true);
+}
+
 TEST(CasesOfTheLibrary, HaveTheNumbersOfTheirDocuments) {
   const papilla::PerssonResult r = papilla::api::persson(
       {"physics/wrist_on_glass.toml",
@@ -217,6 +287,7 @@ TEST(CasesOfTheLibrary, HaveTheNumbersOfTheirDocuments) {
                                                               {"capacitance", p.capacitance}};
     for (const auto& [name, value] : numbers) EXPECT_EQ(of[name].get<double>(), value) << name;
     EXPECT_EQ(of["collapsed"], p.collapsed);
+    EXPECT_EQ(of.value("yielded", false), p.yielded);
   };
   expect_point(r.point, json["point"]);
   EXPECT_EQ(r.point.voltage, 120);

@@ -86,6 +86,9 @@ TEST(PredictionsOfOneRun, AreTheSlopesAndRatiosOfTheNumbersBesideThem) {
   int exponents = 0, ratios = 0;
   for (const Prediction& p : few_skins()) {
     if (p.quantity != "exponent" && p.quantity != "ratio") continue;
+    EXPECT_EQ(p.samples.size(), 3u) << p.id;
+    EXPECT_NEAR(mean_estimate(p.samples).value, p.value.value, 1e-12) << p.id;
+    EXPECT_EQ(mean_estimate(p.samples).se, p.value.se) << p.id;
     std::vector<double> x, y;
     std::istringstream parts(p.beside);
     for (std::string part; std::getline(parts, part, ';');) {

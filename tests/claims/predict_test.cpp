@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "numerics/statistics.h"
+
 namespace papilla::tests::predict_test {
 namespace {
 
@@ -73,6 +75,25 @@ TEST_F(ModelParts, AreTheSpreadOverTheMembersThatHaveAnAnswer) {
   EXPECT_EQ(all[3].silent, 4);
   EXPECT_FALSE(all[4].model);
   EXPECT_EQ(all[4].silent, 0);
+}
+
+// Values of 1 and 3 lie 1 from their mean; on three skins each is off by -c, 0 and c, the one up
+// where the other is down: squares of 1 and c^2/3. Eq. accuracy.18
+TEST_F(ModelParts, LeaveOutWhatSkinsScatterThemBy) {
+  for (const double c : {0.0, 0.3, std::sqrt(3.0), 6.0}) {
+    for (std::size_t k = 0; k < members_.size(); ++k) {
+      const double value = k % 2 ? 3 : 1, off = k % 2 ? c : -c;
+      Prediction there = of("all", value);
+      there.samples = {value - off, value, value + off};
+      members_[k] = {there};
+    }
+    std::vector<Prediction> all{of("all", 2)};
+    take_model_parts(all, belief_, members_);
+    ASSERT_TRUE(all[0].model);
+    const double meant = c > 0 ? meant_share(3 / (c * c), 5, 3).value : 1;
+    EXPECT_NEAR(*all[0].model, std::sqrt(meant), 1e-12) << c;
+    EXPECT_GT(*all[0].model, 0) << c;
+  }
 }
 
 }  // namespace

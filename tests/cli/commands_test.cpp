@@ -226,6 +226,15 @@ TEST(Explain, SaysWhatRimsLargerThanTheDepthMakeOfTheWalls) {
   EXPECT_EQ(stack.out.find("texture.parts.0: rims"), std::string::npos) << stack.out;
 }
 
+TEST(Explain, PricesTheMembersOfBeliefWhereTheyAreRun) {
+  const Workplace place;
+  const std::string members = " members of the finger's belief";
+  EXPECT_NE(place.run("explain " + kSample + kDraft).out.find(members), std::string::npos);
+  const Outcome other = place.run("explain " + kSample + kDraft + " --set model.closure=balance");
+  EXPECT_EQ(other.status, 0) << other.err;
+  EXPECT_EQ(other.out.find(members), std::string::npos) << other.out;
+}
+
 TEST(Explain, NamesWhatItSkipsAndWhy) {
   const Workplace place;
   const Outcome undriven = place.run("explain " + kSample + " --set drive.amplitude=0V");
@@ -586,6 +595,15 @@ TEST(SolveContact, AFlatSurfaceTouchesEverywhereAtTheMeanPressure) {
       2);
 }
 
+TEST(SolveContact, HelpSaysWordsAndDefaultsOfItsOptions) {
+  const Workplace place;
+  const std::string help = place.run("solve contact --help").out;
+  for (const char* said : {"--method TEXT:{auto,dense,sparse}=auto", "--hardness TEXT=0 Pa",
+                           "--threads INT:INT in [1 - 1024]=1", "[1 - 1000000]=1000"})
+    EXPECT_NE(help.find(said), std::string::npos) << said << "\n" << help;
+  EXPECT_EQ(help.find("->"), std::string::npos) << help;
+}
+
 TEST(SolveContact, TheApproachOfALoadGivesTheLoad) {
   const Workplace place;
   ASSERT_EQ(place.run("export " + kSample + " --pixels 64 --format npy --out holes").status, 0);
@@ -606,7 +624,8 @@ TEST(SolveContact, TheApproachOfALoadGivesTheLoad) {
   EXPECT_NEAR(by_approach["mean_pressure"].get<double>(), 3e6, 1e3);
   EXPECT_EQ(place.run(solve + "--pressure '3 MPa' --approach '3 nm'").status, 2);
   EXPECT_EQ(place.run(solve).status, 2);
-  EXPECT_EQ(place.run(solve + "--pressure '3 MPa' --method quick").status, 2);
+  for (const char* method : {"quick", "2", "7"})  // words alone
+    EXPECT_EQ(place.run(solve + "--pressure '3 MPa' --method " + method).status, 2) << method;
   // One iteration is not enough: said so, in the answer and in the exit status.
   const Outcome cut = place.run(solve + "--pressure '3 MPa' --method dense --max-iterations 1");
   EXPECT_EQ(cut.status, 1);

@@ -71,6 +71,24 @@ EvaluationOptions asked(bool model, bool parameters) {
   return out;
 }
 
+// What is priced is what is run: members by the options that the finger was fitted with, else the
+// steps of its fit, else nothing.
+TEST(BeliefParts, ArePricedAsTheyAreRun) {
+  Design d = small_design();
+  d.finger.belief = shear_belief();
+  const auto cost = [&] { return model_cost(scene_of(d), small_fidelity()); };
+  EXPECT_EQ(cost().members, 3);
+  EXPECT_EQ(cost().runs, 4);
+  EXPECT_EQ(cost().fidelity, belief_fidelity(small_fidelity()));
+  d.model.closure = Closure::Persson;
+  d.finger.uncertainty.clear();
+  EXPECT_EQ(cost().members, 0);
+  EXPECT_EQ(cost().runs, 0);
+  d.finger.uncertainty = {{"macro.shear_strength", 0.05, {}}};
+  EXPECT_EQ(cost().members, 0);
+  EXPECT_EQ(cost().runs, 2);
+}
+
 TEST(BeliefParts, OfTheShearStrengthAreItsOwnAndTheModulationsNone) {
   Design d = small_design();
   d.finger.belief = shear_belief();
