@@ -266,8 +266,10 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     return interrupt.status();
   }
   const std::string best =
-      result.has_best() ? std::string("report.html, summary.md, pareto.csv, best/ is what to build")
-                        : "summary.md, pareto.csv, history.csv";
+      result.any_feasible ? "report.html, summary.md, pareto.csv, best/ is what to build"
+      : result.has_best()
+          ? "report.html, summary.md, pareto.csv, best/ is what comes nearest to the limits"
+          : "summary.md, pareto.csv, history.csv";
   context.note(fmt::format("{} in {:.0f} s; results in {}/ ({})",
                            counted(result.evaluations, "evaluation"), seconds, run.folder, best));
   if (!result.any_feasible) {

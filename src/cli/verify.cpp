@@ -56,7 +56,12 @@ int verify_test_wafer(const Context& context, const VerifyCommand& command,
 std::optional<RunVerdict> verify_numbers(const Context& context, const VerifyCommand& command,
                                          const Interruptible& interrupt) {
   if (command.geometry && command.receipts.empty()) return std::nullopt;
-  if (!is_finished_run(command.path)) {
+  if (const std::vector<std::string> missing = missing_of_run(command.path); !missing.empty()) {
+    if (has_receipts(command.path))
+      throw InputError(
+          fmt::format("{} has receipts.json and no {}: taken away; its numbers cannot "
+                      "be computed again",
+                      command.path, join_names(missing)));
     if (!command.receipts.empty())
       throw InputError("--receipt is of a folder that `papilla optimize` wrote to its end");
     return std::nullopt;

@@ -267,13 +267,20 @@ Design design_under(Design design, const Scenery& scenery, const std::set<double
   return design;
 }
 
+// What readings may be off the expectation by: the computation's part, and the model's where belief
+// was asked, which a wafer is there to lower.
+double whole_error(const Measured& number) {
+  return std::hypot(number.se(), number.parts.model.value_or(0));
+}
+
 Expected expected_at(const ResponsePoint& point, bool driven) {
   const double nothing = std::nan("");
   Expected out{nothing, nothing, nothing, nothing, point.oxide_margin};
   if (point.knows_undriven())
-    out.friction_off = point.friction_off.value, out.friction_error = point.friction_off.se();
+    out.friction_off = point.friction_off.value,
+    out.friction_error = whole_error(point.friction_off);
   if (driven && point.knows_driven())
-    out.modulation = point.modulation.value, out.modulation_error = point.modulation.se();
+    out.modulation = point.modulation.value, out.modulation_error = whole_error(point.modulation);
   return out;
 }
 

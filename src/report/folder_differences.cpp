@@ -66,12 +66,17 @@ class Differences {
   Differences(const Folder& there, const Folder& here) : there_(there), here_(here) {}
 
   void run(const std::string& file, const Json& says, const Json& run) {
-    if (says.is_discarded()) return other(file + ": is damaged");
-    const std::map<std::string, Json> found = flat(says), expected = flat(run);
+    const std::map<std::string, Json> expected = flat(run);
+    if (says.is_discarded()) {
+      for (const auto& [pointer, value] : expected) lost(value, file + ": is damaged");
+      return other(file + ": is damaged");
+    }
+    const std::map<std::string, Json> found = flat(says);
     for (const auto& [pointer, value] : expected) {
       const std::string where = file + "#" + pointer;
       const auto there = found.find(pointer);
       if (there == found.end()) {
+        lost(value, where + ": is missing");
         other(where + ": is missing");
       } else if (value.is_string()) {
         said(where, there->second, said_parts(value.get<std::string>()));
@@ -135,6 +140,12 @@ class Differences {
   }
 
   void other(const std::string& text) { out.others.push_back(text); }
+  // A place that is gone, with the numbers that stood there.
+  void lost(const Json& value, const std::string& says) {
+    if (!value.is_string()) return;
+    for (const TextPart& part : said_parts(value.get<std::string>()))
+      if (part.number) out.receipts.push_back({part.number->words, part.text, says});
+  }
 
   Json page_data() const {
     return there_.has(kPageName) ? data_of(there_.read(kPageName)) : Json::object();

@@ -185,12 +185,11 @@ std::string model_text(const ResultFiles& f) {
                     checked_value(o, (*high)[k], "the choice of the model that makes it largest")));
   }
   return fmt::format(
-      "{} ({} of them, on {} \"{}\"; the table \"Does the order hold?\" has each): over these "
-      "{}.",
-      out,
+      "{} ({} of them, on {} \"{}\"{}): over these {}.", out,
       stated(count_number("choices of the model that were tried", tried, {Stage::Stability}),
              fmt::format("{}", tried)),
       f.study.design.counterface.in_place() ? "the pin" : "finger", f.problem.tasks().front().name,
+      s.has_order() ? "; the table \"Does the order hold?\" has each" : "",
       ranges.empty() ? "it has no value" : "it has " + join_names(ranges));
 }
 

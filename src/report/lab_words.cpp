@@ -218,7 +218,7 @@ std::string decision_reason(const Lab& lab, const Standing& s, const PlanRecord&
   const std::string now = regret_text(lab, s, plan.regret_now),
                     then = regret_text(lab, s, plan.regret_after);
   const std::string why =
-      plan.regret_after < plan.regret_now
+      plan.regret_after < plan.regret_now && then != now
           ? fmt::format(
                 "they lower the expected regret of the choice most for the time they take, from {} "
                 "to {}",

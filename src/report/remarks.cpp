@@ -104,10 +104,13 @@ std::string one_value_remark(const Study& study, const OneValue& one, int evalua
                      variable_text(v, one.value), counted(evaluations, "evaluation"));
 }
 
-std::string bound_remark(const Study& study, const StudyProblem& problem, const AtBound& at) {
+std::string bound_remark(const Study& study, const StudyProblem& problem, const AtBound& at,
+                         bool feasible) {
   const Variable& v = study.variables[at.variable];
-  std::string out = fmt::format("What is recommended has {} on its {} bound, {}", v.path,
-                                at.upper ? "upper" : "lower", variable_text(v, at.bound));
+  std::string out =
+      fmt::format("{} has {} on its {} bound, {}",
+                  feasible ? "What is recommended" : "What comes nearest to the limits", v.path,
+                  at.upper ? "upper" : "lower", variable_text(v, at.bound));
   if (at.last) return out + ", the last value that the model takes.";
   std::vector<std::string> gains;
   for (std::size_t k = 0; k < at.change.size(); ++k) {
@@ -148,7 +151,7 @@ std::vector<std::string> run_remarks(const Study& study, const StudyProblem& pro
   for (const OneValue& one : result.one_value)
     add(one_value_remark(study, one, result.evaluations));
   for (const AtBound& at : result.at_bound) {
-    if (promises(problem, result, at)) add(bound_remark(study, problem, at));
+    if (promises(problem, result, at)) add(bound_remark(study, problem, at, result.any_feasible));
   }
   return out;
 }

@@ -94,11 +94,12 @@ void copy_journal(const Folder& to, const StudyProblem& problem,
 
 }  // namespace
 
-bool is_finished_run(const std::string& folder) {
+std::vector<std::string> missing_of_run(const std::string& folder) {
+  std::vector<std::string> out;
   for (const char* name : {"run.json", "resolved.toml", "journal"}) {
-    if (!fs::is_regular_file(fs::path(folder) / name)) return false;
+    if (!fs::is_regular_file(fs::path(folder) / name)) out.emplace_back(name);
   }
-  return true;
+  return out;
 }
 
 bool has_receipts(const std::string& folder) {

@@ -13,8 +13,9 @@
 
 namespace papilla::report {
 
-// A finished run of `papilla optimize`, and whether it has receipts.
-bool is_finished_run(const std::string& folder);
+// What a finished run of `papilla optimize` has and the folder has not; none: it is one. And
+// whether it has receipts.
+std::vector<std::string> missing_of_run(const std::string& folder);
 bool has_receipts(const std::string& folder);
 // run.json names them: without, they were taken away.
 bool promises_receipts(const std::string& folder);

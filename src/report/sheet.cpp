@@ -28,6 +28,13 @@ Json drift_json(const std::optional<Drift>& drift, double unit) {
   return drift && drift->judged() ? Json(drift->most / unit) : Json();
 }
 
+// Two digits, none of them beyond what was tried.
+double rounded_down(double si, const std::string& unit) {
+  const double to_si = find_unit(unit)->to_si, value = si / to_si;
+  const double step = std::pow(10, std::floor(std::log10(value)) - 1);
+  return to_si * step * std::floor(value / step * (1 + 1e-9));
+}
+
 }  // namespace
 
 std::string drift_text(const Drift& drift, const std::string& unit) {
@@ -39,7 +46,8 @@ std::string drift_text(const Drift& drift, const std::string& unit) {
                  ? fmt::format("{}, then {} is reached", in_unit(drift.most, unit, 2), drift.limit)
                  : fmt::format("none: {} is reached", drift.limit);
     case Drift::End::StepTried:
-      return fmt::format("> {} (largest step tried)", in_unit(drift.most, unit, 2));
+      return fmt::format("> {} (largest step tried)",
+                         in_unit(rounded_down(drift.most, unit), unit, 2));
     case Drift::End::RangeEnds:
       return "not judged: the search range ends here";
     case Drift::End::NoShape:

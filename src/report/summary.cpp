@@ -185,7 +185,7 @@ std::string stability_text(const ResultFiles& f) {
   const Stability& s = f.result.stability;
   const auto& objectives = f.problem.objectives();
   const std::size_t judged = s.times_on_front.size();
-  if (s.variants.empty() || judged < 2) return {};
+  if (!s.has_order()) return {};
   std::string out =
       "\n## Does the order hold?\n\nEach design of the front on each finger alone, then on the "
       "first finger "
@@ -319,9 +319,21 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
   const std::string unknown = problem.parameters_unknown();
   if (!unknown.empty())
     return out + fmt::format("\nWhat is not known of finger and model is in no ±: {}.\n", unknown);
+  constexpr const char* kNumerical =
+      "\n± is numerical: one standard error of skins, droplets, grid and method";
+  const auto has_model_part = [&](const FinalDesign& d) {
+    for (std::size_t k = 0; d.confirmed.ok && k < objectives.size(); ++k) {
+      if (parameter_error(d.confirmed, k)) return true;
+    }
+    return false;
+  };
+  if (std::none_of(result.finalists.begin(), result.finalists.end(), has_model_part))
+    return out + kNumerical +
+           ". What is not known of finger and model was judged of no design here.\n";
   out += fmt::format(
-      "\n± is numerical: one standard error of skins, droplets, grid and method. In brackets{} the "
+      "{}. In brackets{} the "
       "model part, what {} leaves open, one standard deviation, common to all designs",
+      kNumerical,
       study.design.accuracy.parameters || problem.has_belief()
           ? ""
           : ", of the best design (all: `[accuracy] parameters = true`),",

@@ -32,6 +32,7 @@ struct Stability {
   std::size_t first_choice = 0;  // of the variants that are choices of the model
 
   bool judged(std::size_t design) const { return design < times_on_front.size(); }
+  bool has_order() const { return !variants.empty() && times_on_front.size() > 1; }
   // On the front in two thirds of the variants at least; of a judged design.
   bool stable(std::size_t design) const {
     return 3 * times_on_front[design] >= 2 * static_cast<int>(variants.size());

@@ -350,6 +350,19 @@ TEST(Wafer, ExpectsOfAPinWhatItsOwnLoadMakes) {
   EXPECT_NE(stated.find("\"tip\" stands in place of the finger"), std::string::npos) << stated;
 }
 
+TEST(Wafer, StatesWhatBeliefLeavesOpenOfWhatItExpects) {
+  const Workplace place;
+  place.write("few_members.toml", file_text(PAPILLA_TEST_DATA "/study/few_members.toml"));
+  WaferPlan plan = plan_of(place, "", "voltage = [\"200 V\"]\nhumidity = [\"55 %\"]\n");
+  for (Treatment& t : plan.treatments)
+    t.design.finger.belief = (place.path() / "few_members.toml").string();
+  const Expected whole = expect(plan, true).at(0).at(0), own = expect(plan, false).at(0).at(0);
+  EXPECT_EQ(whole.friction_off, own.friction_off);
+  EXPECT_EQ(whole.modulation, own.modulation);
+  EXPECT_GT(whole.friction_error, 1.1 * own.friction_error);
+  EXPECT_GT(whole.modulation_error, 1.1 * own.modulation_error);
+}
+
 TEST(Wafer, RefusesConditionsThatTheModelRefuses) {
   const Workplace place;
   const std::string driven = "load = [\"0.2 N\"]\nvoltage = [\"0 V\", \"700 V\"]\n";

@@ -220,6 +220,27 @@ TEST_F(ReceiptsOfARun, AreRefusedOfAChangedStudyOrHalfAJournal) {
   place_->write("half/journal", journal.substr(0, journal.size() / 2));
   EXPECT_NE(place_->run("verify half").err.find("does not come to the end of a run"),
             std::string::npos);
+  for (const char* name : {"journal", "run.json"}) {
+    fs::remove(fs::path(copied("gone")) / name);
+    const Outcome gone = place_->run("verify gone");
+    EXPECT_EQ(gone.status, 2) << gone.out;
+    EXPECT_NE(gone.err.find(std::string("no ") + name), std::string::npos) << gone.err;
+  }
+}
+
+TEST_F(ReceiptsOfARun, AreViolatedWhereTheirPlaceIsGone) {
+  copied("cut");
+  place_->write("cut/run.json", file_text(place_->path() / "run/run.json").substr(0, 500));
+  const RunVerdict verdict = recomputed_->judge(folder("cut"));
+  std::size_t of_run = 0;
+  for (const ReceiptVerdict& r : verdict.receipts) {
+    if (!std::any_of(r.receipt.places.begin(), r.receipt.places.end(),
+                     [](const std::string& place) { return place.starts_with("run.json#"); }))
+      continue;
+    ++of_run;
+    EXPECT_EQ(r.state, ReceiptState::Violated) << r.receipt.id << " " << r.receipt.number.words;
+  }
+  EXPECT_GT(of_run, 10u);
 }
 
 // Files that agree with a journal whose answer was changed: only the model tells.

@@ -722,6 +722,11 @@ TEST(BuildSheet, OfASurfaceBesideTheFrontSaysThatHowSureItIsWasNotJudged) {
       << said();
 }
 
+TEST(BuildSheet, NamesNoLargerStepThanWasTried) {
+  for (const double nm : {17.5 - 1e-14, 17.5, 17.0, 17.96})
+    EXPECT_EQ(drift_text({nm * 1e-9, Drift::End::StepTried}, "nm"), "> 17 nm (largest step tried)");
+}
+
 TEST(BuildSheet, ForProgramsIsInTheUnitsOfTheStudy) {
   Searched run;
   run.result.at_bound = {{0, true, 5e-6, false, 0, {}}};

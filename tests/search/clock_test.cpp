@@ -115,6 +115,9 @@ TEST(Findings, ABoundIsNamedWithWhatWideningGives) {
   OptimiseResult result;
   result.asked = result.evaluations = 40;
   result.at_bound = at;
+  EXPECT_TRUE(run_remarks(study, problem, result)[0].starts_with(
+      "What comes nearest to the limits has texture.period on its upper bound, 10 um."));
+  result.any_feasible = true;
   const std::vector<std::string> remarks = run_remarks(study, problem, result);
   ASSERT_EQ(remarks.size(), 2u);
   EXPECT_EQ(
