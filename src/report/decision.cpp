@@ -214,15 +214,13 @@ std::string overturned_text(const ResultFiles& f) {
   if (found.empty())
     return fmt::format(
         "nothing that was tried: under no choice of the model that belief weighs and with no "
-        "number "
-        "of the finger in the upper or lower half of what is believed of it is another design "
-        "better by {:.0f} % or more",
+        "number of the finger in the upper or lower half of what is believed of it is another "
+        "design better by {:.0f} % or more",
         100 * kAlike);
-  return join_names(found, "; ") + fmt::format(
-                                       "; no other choice of the model that belief weighs and no "
-                                       "number of the finger that was "
-                                       "tried makes another design better by {:.0f} % or more",
-                                       100 * kAlike);
+  return fmt::format(
+      "{}; no other choice of the model that belief weighs and no number of the finger that was "
+      "tried makes another design better by {:.0f} % or more",
+      join_names(found, "; "), 100 * kAlike);
 }
 
 // How surely the limits hold: "" where the study has none.

@@ -28,11 +28,12 @@ Json drift_json(const std::optional<Drift>& drift, double unit) {
   return drift && drift->judged() ? Json(drift->most / unit) : Json();
 }
 
-// Two digits, none of them beyond what was tried.
-double rounded_down(double si, const std::string& unit) {
+// Two digits that are not beyond it: what was tried, or where a limit is reached.
+std::string at_most(double si, const std::string& unit) {
   const double to_si = find_unit(unit)->to_si, value = si / to_si;
+  if (!(value > 0)) return in_unit(si, unit, 2);
   const double step = std::pow(10, std::floor(std::log10(value)) - 1);
-  return to_si * step * std::floor(value / step * (1 + 1e-9));
+  return in_unit(to_si * step * std::floor(value / step * (1 + 1e-9)), unit, 2);
 }
 
 }  // namespace
@@ -40,14 +41,13 @@ double rounded_down(double si, const std::string& unit) {
 std::string drift_text(const Drift& drift, const std::string& unit) {
   switch (drift.end) {
     case Drift::End::Loss:
-      return in_unit(drift.most, unit, 2);
+      return at_most(drift.most, unit);
     case Drift::End::Limit:
       return drift.most > 0
-                 ? fmt::format("{}, then {} is reached", in_unit(drift.most, unit, 2), drift.limit)
+                 ? fmt::format("{}, then {} is reached", at_most(drift.most, unit), drift.limit)
                  : fmt::format("none: {} is reached", drift.limit);
     case Drift::End::StepTried:
-      return fmt::format("> {} (largest step tried)",
-                         in_unit(rounded_down(drift.most, unit), unit, 2));
+      return fmt::format("> {} (largest step tried)", at_most(drift.most, unit));
     case Drift::End::RangeEnds:
       return "not judged: the search range ends here";
     case Drift::End::NoShape:

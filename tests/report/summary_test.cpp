@@ -725,6 +725,9 @@ TEST(BuildSheet, OfASurfaceBesideTheFrontSaysThatHowSureItIsWasNotJudged) {
 TEST(BuildSheet, NamesNoLargerStepThanWasTried) {
   for (const double nm : {17.5 - 1e-14, 17.5, 17.0, 17.96})
     EXPECT_EQ(drift_text({nm * 1e-9, Drift::End::StepTried}, "nm"), "> 17 nm (largest step tried)");
+  EXPECT_EQ(drift_text({1.77e-9, Drift::End::Limit, "min_wall"}, "nm"),
+            "1.7 nm, then min_wall is reached");
+  EXPECT_EQ(drift_text({1.77e-9, Drift::End::Loss}, "nm"), "1.7 nm");
 }
 
 TEST(BuildSheet, ForProgramsIsInTheUnitsOfTheStudy) {
