@@ -191,6 +191,7 @@ class Controls {
     ControlRuns& out = patches.controls;
     PatchSet first = patches;
     for (auto& results : first.results) results.resize(static_cast<std::size_t>(skins_));
+    first.solved.clear();  // by the law as it is, which its skins' areas are compared with
     out.own = respond(scene_, fidelity_, first);
     out.friction_by_load = scene_.touch.coefficient > 0;
     out.octaves =

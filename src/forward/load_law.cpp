@@ -51,6 +51,10 @@ double settled_load(const Total& total) {
   return load;
 }
 
+bool is_sample(const std::vector<SolvedPatch>& skin) {
+  return !skin.empty() && skin.front().sample.has_value();
+}
+
 }  // namespace
 
 double AttractionLaw::load_off(double capillary) const {
@@ -157,20 +161,28 @@ LoadLaws load_laws(const ScaleBridge& bridge, std::span<const std::vector<Solved
   return laws;
 }
 
-std::vector<std::vector<PatchResult>> without_each(const ScaleBridge& bridge,
-                                                   std::span<const std::vector<SolvedPatch>> skins,
-                                                   int samples) {
+std::size_t samples_among(std::span<const std::vector<SolvedPatch>> skins) {
+  return static_cast<std::size_t>(std::count_if(skins.begin(), skins.end(), is_sample));
+}
+
+std::vector<std::vector<PatchResult>> without_each(
+    const ScaleBridge& bridge, std::span<const std::vector<SolvedPatch>> skins) {
+  const std::size_t samples = samples_among(skins);
+  if (samples < 2) return {};
   const LoadLaws laws = load_laws(bridge, skins);
   // Without one of m samples the law of m has the variance (m - 1)/m of the squares; the squares of
   // n skins count (n - 1)/n of theirs.
   const auto m = static_cast<double>(samples), n = static_cast<double>(skins.size());
   const double share = std::sqrt((m - 1) / m * n / (n - 1));
   std::vector<std::vector<PatchResult>> out;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(samples); ++k) {
+  for (std::size_t k = 0; k < skins.size(); ++k) {
     std::vector<std::vector<SolvedPatch>> others(skins.begin(), skins.end());
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    LoadLaws there = load_laws(bridge, others);
-    for (std::size_t q = 0; q < laws.size(); ++q) there[q] = laws[q].toward(there[q], share);
+    LoadLaws there = laws;
+    if (is_sample(skins[k])) {
+      there = load_laws(bridge, others);
+      for (std::size_t q = 0; q < laws.size(); ++q) there[q] = laws[q].toward(there[q], share);
+    }
     out.push_back(combined(bridge, there, others));
   }
   return out;

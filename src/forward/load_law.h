@@ -64,13 +64,15 @@ SolvedPatch over_members(std::span<const WaterMember> members, const Plan& plan,
                          const Fidelity& fidelity, PatchStates* start,
                          const std::function<PatchProblem(const WaterMember&)>& problem,
                          const std::function<DrivenPatch(const PatchProblem&)>& drive);
+// How many of the skins are samples of the law.
+std::size_t samples_among(std::span<const std::vector<SolvedPatch>> skins);
 // By the samples among the skins, at each patch pressure of the bridge.
 LoadLaws load_laws(const ScaleBridge& bridge, std::span<const std::vector<SolvedPatch>> skins);
-// The results without each of the first `samples` skins, which are those of the load law, with the
-// law that the jackknife of all skins takes for its own scatter.
+// The results without each skin; without a sample of the load law by the law that the jackknife of
+// all skins takes for the law's own scatter. Empty where the law is not of two samples among the
+// skins, at least.
 std::vector<std::vector<PatchResult>> without_each(const ScaleBridge& bridge,
-                                                   std::span<const std::vector<SolvedPatch>> skins,
-                                                   int samples);
+                                                   std::span<const std::vector<SolvedPatch>> skins);
 // Of each skin one result over the patch pressures; laws: of them, or none.
 std::vector<PatchResult> combined(const ScaleBridge& bridge, const LoadLaws& laws,
                                   std::span<const std::vector<SolvedPatch>> skins);

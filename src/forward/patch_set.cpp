@@ -104,6 +104,16 @@ void add_measured_error(const MeasuredError& error, std::size_t humidity, Respon
   }
 }
 
+// The results without each skin, by the load law of all.
+std::vector<std::vector<PatchResult>> all_but_each(const std::vector<PatchResult>& results) {
+  std::vector<std::vector<PatchResult>> out;
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    out.push_back(results);
+    out.back().erase(out.back().begin() + static_cast<std::ptrdiff_t>(k));
+  }
+  return out;
+}
+
 }  // namespace
 
 PatchCosts PatchSet::costs(int first) const {
@@ -120,7 +130,14 @@ void PatchSet::add(const PatchSet& other) {
   for (std::size_t i = 0; i < results.size(); ++i) {
     results[i].insert(results[i].end(), other.results[i].begin(), other.results[i].end());
   }
-  others.clear();
+  // Refitted are the laws that all of them are by: those of the skins before.
+  const bool by_other_laws =
+      other.solved.size() != solved.size() ||
+      std::any_of(other.solved.begin(), other.solved.end(),
+                  [](const auto& skins) { return samples_among(skins) > 0; });
+  if (by_other_laws) solved.clear();
+  for (std::size_t i = 0; i < solved.size(); ++i)
+    solved[i].insert(solved[i].end(), other.solved[i].begin(), other.solved[i].end());
   seconds += other.seconds;
 }
 
@@ -167,10 +184,7 @@ PatchSet solve(const Scene& scene, const Texture& texture, const Fidelity& fidel
   for (std::size_t i = 0; i < humidities.size(); ++i)
     set.results[i] = combined(set.bridges[i], set.laws.empty() ? LoadLaws{} : set.laws[i],
                               std::span(solved[i]).first(static_cast<std::size_t>(fidelity.skins)));
-  if (samples > 1 && samples <= fidelity.skins && fidelity.control_skins == 0) {
-    for (std::size_t i = 0; i < humidities.size(); ++i)
-      set.others.push_back(without_each(set.bridges[i], solved[i], samples));
-  }
+  if (!set.laws.empty() && samples <= fidelity.skins) set.solved = std::move(solved);
   set.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return set;
 }
@@ -206,13 +220,17 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
     };
     const std::vector<PatchResult>& patches = set.results[i];
     response.points.push_back(point_of(patches));
-    std::vector<PatchResult> others(patches.begin() + (patches.empty() ? 0 : 1), patches.end());
+    std::vector<std::vector<PatchResult>> others;
+    if (!set.solved.empty()) others = without_each(set.bridges[i], set.solved[i]);
+    const bool by_own_laws = !others.empty();
+    if (!by_own_laws) others = all_but_each(patches);
+    std::vector<ResponsePoint> without;
+    for (std::size_t k = 0; k < response.without.size(); ++k)
+      without.push_back(point_of(others[k]));
+    if (by_own_laws) take_sampling(response.points.back(), without);
     for (std::size_t k = 0; k < response.without.size(); ++k) {
-      // `others` holds all but skin k.
-      const bool samples = i < set.others.size() && k < set.others[i].size();
-      response.without[k].push_back(point_of(samples ? set.others[i][k] : others));
+      response.without[k].push_back(std::move(without[k]));
       response.without[k].back().samples = {};
-      if (k < others.size()) others[k] = patches[k];
     }
     add_field_error(set.field[i], load_exponents(fidelity.load_exponent, scene.touch.coefficient),
                     response.points.back());

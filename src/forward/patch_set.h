@@ -33,11 +33,10 @@ struct PatchSet {
   FieldRatios field;                              // one per humidity
   std::vector<LoadLaws> laws;                     // Eq. coupling.14, one per humidity; or empty
   std::vector<std::vector<PatchResult>> results;  // [humidity][skin]
-  // [humidity][skin left out] The results of the remaining skins, with the load law refitted
-  // without that skin, so that the jackknife contains the scatter of the law. Only for the skins
-  // that the law is fitted to. Empty: there is no law, it was given, or control skins measure its
-  // error.
-  std::vector<std::vector<std::vector<PatchResult>>> others;
+  // [humidity][skin] What the results are of before the load law, and what the law was fitted to:
+  // `respond` refits it without each skin, so that the jackknife contains the scatter of the law.
+  // Empty: there is no law, or skins that it is of are not among these.
+  std::vector<std::vector<std::vector<SolvedPatch>>> solved;
   std::vector<MeasuredError> errors;  // measure_errors fills this and `controls`
   ControlRuns controls;
   double area_factor = 1;  // on contact areas: `resolved_areas`

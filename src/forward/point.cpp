@@ -244,6 +244,15 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
   return point;
 }
 
+void take_sampling(ResponsePoint& point, std::span<const ResponsePoint> without) {
+  for (const PointQuantity& q : kPointQuantities) {
+    Measured& number = point.*q.value;
+    std::vector<double> of_others;
+    for (const ResponsePoint& p : without) of_others.push_back((p.*q.value).value);
+    number.parts.sampling = mean_estimate(jackknife_samples(number.value, of_others)).se;
+  }
+}
+
 void note_water(ResponsePoint& point, const SkinWater& water) {
   constexpr double kLeastOpen = 0.05;
   const double open = 1 - point.wetted_fraction.value - point.area_fraction_off.value;

@@ -25,6 +25,10 @@ struct PointSetting {
 ResponsePoint response_point(const PointSetting& setting, double relative_humidity, double weight,
                              const ScaleBridge& bridge, std::span<const PatchResult> patches);
 
+// The sampling part of every number from those of the point without each skin: the skins of a load
+// law are common to all patches, which the patches' scatter does not show.
+void take_sampling(ResponsePoint& point, std::span<const ResponsePoint> without);
+
 // The state of the water where nothing else is wrong: next to no open gap left, so that the pull
 // hangs on single pixels; a humidity beyond those of the volumes, which are continued.
 void note_water(ResponsePoint& point, const SkinWater& water);

@@ -105,7 +105,15 @@ ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) cons
   const std::vector<PatchResult> results =
       combined(bridge, samples > 0 ? load_laws(bridge, solved) : LoadLaws{},
                std::span(solved).first(static_cast<std::size_t>(fidelity.skins)));
-  ResponsePoint point = response_point({scene, plan, fidelity}, humidity(), 1, bridge, results);
+  const auto point_of = [&](const std::vector<PatchResult>& patches) {
+    return response_point({scene, plan, fidelity}, humidity(), 1, bridge, patches);
+  };
+  ResponsePoint point = point_of(results);
+  if (samples > 0 && samples <= fidelity.skins) {
+    std::vector<ResponsePoint> without;
+    for (const auto& others : without_each(bridge, solved)) without.push_back(point_of(others));
+    if (!without.empty()) take_sampling(point, without);
+  }
   add_field_error(field_.front(), load_exponents(fidelity.load_exponent, scene.touch.coefficient),
                   point);
   return point;

@@ -30,7 +30,7 @@ struct Solved {
 
 TEST(PatchSet, WithoutASkinIsTheAnswerOfTheOthers) {
   Solved s;
-  s.set.others.clear();  // the load law of all
+  s.set.solved.clear();  // the load law of all
   const Response all = respond(s.scene, s.fidelity, s.set);
   EXPECT_TRUE(all.driven);
   EXPECT_EQ(all.fidelity.skins, 3);
@@ -85,15 +85,11 @@ TEST(PatchSet, SkinsScatterByTheStatedErrorWhereTheLoadLawIsOfFew) {
       s.fidelity.first_skin = k * skins;
       PatchSet set = solve_patches(s.scene, Texture{}, s.fidelity);
       const auto variance = [&] {
-        const Response there = respond(s.scene, s.fidelity, set);
-        std::vector<double> without;
-        for (const auto& others : there.without) without.push_back(others[0].modulation.value);
-        const double all = there.points[0].modulation.value;
-        return square(mean_estimate(jackknife_samples(all, without)).se);
+        return square(respond(s.scene, s.fidelity, set).points[0].modulation.parts.sampling);
       };
       found.push_back(respond(s.scene, s.fidelity, set).points[0].modulation.value);
       stated += variance() / kSets;
-      set.others.clear();
+      set.solved.clear();
       by_common_law += variance() / kSets;
     }
     const double scatter = square(mean_estimate(found).se) * kSets;
@@ -125,6 +121,33 @@ TEST(PatchSet, ABatchGoesOnAndCountsItsCostsFromItsFirstSkin) {
   EXPECT_EQ(s.set.costs(3).contact_solves, batch.costs().contact_solves);
   EXPECT_DOUBLE_EQ(s.set.costs(3).fft_pairs, batch.costs().fft_pairs);
   EXPECT_EQ(s.set.costs(5).contact_solves, 0);
+}
+
+// What the law of few skins leaves open is counted with control skins as without, and where skins
+// are added by the same law: it is common to those.
+TEST(PatchSet, TheScatterOfTheLoadLawIsCountedWhateverElseIsMeasured) {
+  Solved s;
+  s.scene.model.coupling = Coupling::Equilibrium;
+  s.scene.drive.amplitude = 200;
+  s.fidelity.skins = 4;
+  s.fidelity.equilibrium_skins = 2;
+  s.fidelity.control_skins = 0;
+  const auto sampling = [](const Response& r) { return r.points[1].modulation.parts.sampling; };
+  PatchSet set = solve_patches(s.scene, Texture{}, s.fidelity);
+  const double counted = sampling(respond(s.scene, s.fidelity, set));
+  Fidelity controlled = s.fidelity;
+  controlled.control_skins = 4;
+  // Control skins take a per cent off the areas that their grid resolves.
+  EXPECT_NEAR(sampling(evaluate(s.scene, Texture{}, controlled)), counted, 0.02 * counted);
+  Fidelity more = s.fidelity;
+  more.first_skin = 4, more.skins = 28;
+  PatchSet both = set;
+  both.add(solve_patches(s.scene, Texture{}, more, set.field, set.laws));
+  const double of_more = sampling(respond(s.scene, s.fidelity, both));
+  both.solved.clear();
+  EXPECT_GT(of_more, 1.5 * sampling(respond(s.scene, s.fidelity, both)));
+  set.solved.clear();
+  EXPECT_GT(std::abs(sampling(respond(s.scene, s.fidelity, set)) / counted - 1), 0.1);
 }
 
 // Relative sizes, by humidity and quantity; costs of the controls are costs of the answer.
