@@ -275,7 +275,7 @@ double whole_error(const Measured& number) {
 
 Expected expected_at(const ResponsePoint& point, bool driven) {
   const double nothing = std::nan("");
-  Expected out{nothing, nothing, nothing, nothing, point.oxide_margin};
+  Expected out{nothing, nothing, nothing, nothing, point.oxide_margin, point.bridged_margin};
   if (point.knows_undriven())
     out.friction_off = point.friction_off.value,
     out.friction_error = whole_error(point.friction_off);
@@ -337,17 +337,28 @@ std::vector<std::string> breakdown_lines(const WaferPlan& plan, const Expectatio
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const Treatment& t = plan.treatments[i];
     const std::vector<WaferCondition> conditions = conditions_of(plan.list.conditions, t.design);
-    std::map<double, double> margins;  // the least at each voltage
+    struct Margins {
+      double solved = kInfinity, bridged = kInfinity;
+    };
+    std::map<double, Margins> margins;  // the least at each voltage
     for (std::size_t k = 0; k < conditions.size(); ++k) {
-      double& least = margins.try_emplace(conditions[k].voltage, 1.0).first->second;
-      least = std::min(least, expected[i][k].oxide_margin);
+      Margins& least = margins[conditions[k].voltage];
+      least.solved = std::min(least.solved, expected[i][k].oxide_margin);
+      least.bridged = std::min(least.bridged, expected[i][k].bridged_margin);
     }
     for (const auto& [voltage, margin] : margins) {
-      if (margin >= 1) continue;
+      const double holds = std::min(margin.solved, margin.bridged);
+      if (holds >= 1) continue;
       out.push_back(fmt::format(
-          "{} at {}: the dielectric breaks down: the field in a layer is {:.3g} times its "
-          "strength, at most {:.3g} V hold; no modulation is expected",
-          t.name, format_quantity(voltage, "V"), 1 / margin, margin * voltage));
+          "{} at {}: the dielectric {}, at most {:.3g} V hold{}", t.name,
+          format_quantity(voltage, "V"),
+          margin.solved < 1
+              ? fmt::format("breaks down: the field in a layer is {:.3g} times its strength",
+                            1 / margin.solved)
+              : fmt::format("is at risk: under a bridge or a contact on its thinnest place the "
+                            "field is {:.3g} times its strength",
+                            1 / margin.bridged),
+          holds * voltage, margin.solved < 1 ? "; no modulation is expected" : ""));
     }
   }
   return out;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "base/rooms.h"
 #include "fabricate/made.h"
 #include "fabricate/verify.h"
@@ -19,7 +20,9 @@ inline constexpr const char* kManifest = "manifest.csv";
 struct Expected {
   double modulation = 0, modulation_error = 0;  // of undriven conditions nothing
   double friction_off = 0, friction_error = 0;  // [N]
-  double oxide_margin = 0;  // strength over field of the film; infinite without a field
+  // Strength over field of the film: the field that was solved, and that under a bridge or a
+  // contact on its thinnest place; infinite without a field.
+  double oxide_margin = kInfinity, bridged_margin = kInfinity;
 };
 // [treatment][condition], in the order of conditions_of. Draft level; each design once per load,
 // state, voltage and frequency. model: the errors hold what is not known of finger and model.
@@ -30,8 +33,8 @@ Expectations expect(const WaferPlan& plan, bool model, const FileProgress& progr
 // voltage, more of it than the source has, a pin that flows under the load.
 void check_conditions(const WaferPlan& plan);
 
-// Voltages under which a film breaks down, a line a design and voltage: nothing is expected of
-// those.
+// Voltages under which a film breaks down, of which nothing is expected, or is at risk under a
+// bridge or a contact; a line a design and voltage.
 std::vector<std::string> breakdown_lines(const WaferPlan& plan, const Expectations& expected);
 
 // Writes wafer.gds, wafer.oas, manifest.csv, wafer.toml and designs/NAME.toml into a folder, which

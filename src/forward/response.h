@@ -68,9 +68,13 @@ struct ResponsePoint : PointQuantities {
   double over_limit_share = 0;      // of the pull from there
   double peak_oxide_field = 0;      // [V/m] mean over the layers
   double oxide_margin = kInfinity;  // least strength over field of a layer of the dielectric
-  double peak_air_field = 0;        // [V/m]
-  double source_voltage = 0;        // [V] peak: under current control what the current needs
-  double retention_gain = 0;        // [N] retention force with the drive on minus that with it off
+  // That where a bridge or a contact puts all of the voltage on the thinnest place of the film:
+  // below 1 the film is at risk there, though it holds the field that was solved. Infinite where a
+  // layer leaks. Eq. electrostatics.9
+  double bridged_margin = kInfinity;
+  double peak_air_field = 0;  // [V/m]
+  double source_voltage = 0;  // [V] peak: under current control what the current needs
+  double retention_gain = 0;  // [N] retention force with the drive on minus that with it off
   // Shear strength times load-carrying area [N]: contact's part of the friction is this times the
   // contact fraction (but for a friction coefficient, Eq. friction.4).
   double strength = 0;

@@ -16,9 +16,16 @@
 namespace papilla::report {
 namespace {
 
-// "sampling 3.1 %, grid 0.8 %, ...": of the value; then what ± leaves out, and what was not
+// "sampling 3.1 %, grid 0.8 %, ...": of the value; then what stands beside it, and what was not
 // measured.
-std::string budget_text(const SummaryValue& v) {
+std::string budget_text(const SummaryValue& v, const Response& response) {
+  // Errors that such a run cannot have: of solved areas, of one humidity, without a field or water.
+  const auto none = [&](const ErrorOrigin& origin) {
+    return (origin.part == &ErrorParts::method && response.fidelity.estimator == Estimator::Area) ||
+           (origin.part == &ErrorParts::humidity && response.points.size() == 1) ||
+           (origin.part == &ErrorParts::field && !response.plan.field) ||
+           (origin.part == &ErrorParts::water && !response.plan.water);
+  };
   const double size = std::abs(v.value);
   if (size == 0) return {};
   std::string out = fmt::format("sampling {:.1f} %", 100 * v.parts.sampling / size), apart, unknown;
@@ -28,15 +35,16 @@ std::string budget_text(const SummaryValue& v) {
       if (origin.in_total) {
         out += ", " + text;
       } else {
-        apart += (apart.empty() ? "; not in ±: " : ", ") + text;
+        apart += (apart.empty() ? "; beside it: " : ", ") + text;
       }
-    } else if (origin.part != &ErrorParts::parameters && origin.part != &ErrorParts::model) {
+    } else if (origin.part != &ErrorParts::parameters && origin.part != &ErrorParts::model &&
+               !none(origin)) {
       unknown += (unknown.empty() ? "" : ", ") + std::string(origin.name);
     }
   }
   if (!apart.empty()) out += apart + ", common to all designs";
   if (!v.parts.model_part()) out += "; parameters not asked for (--parameters)";
-  return out + (unknown.empty() ? "" : "; error from " + unknown + ": unknown");
+  return out + (unknown.empty() ? "" : "; error from " + unknown + ": not measured");
 }
 
 // Whether every humidity has numbers under the drive.
@@ -142,22 +150,25 @@ std::string modulation_lines(const Response& response) {
   if (variation) out += "  variation (sd/mean) " + with_parts(*variation);
   if (range) out += "  range/mean " + with_parts(*range);
   out += '\n';
-  if (mean && mean->value != 0) out += "error of the mean modulation: " + budget_text(*mean) + "\n";
+  if (mean && mean->value != 0)
+    out += "error of the mean modulation: " + budget_text(*mean, response) + "\n";
   if (variation && variation->value != 0)
-    out += "error of the variation: " + budget_text(*variation) + "\n";
+    out += "error of the variation: " + budget_text(*variation, response) + "\n";
   return out + choices_line(response, mean && mean->parts.water);
 }
 
 // How far the field is from what air and dielectric hold, and what that says of the numbers.
 std::string field_lines(const Response& response) {
   std::string out;
-  double area = 0, share = 0, oxide = 0, margin = kInfinity, least = kInfinity, most = 0, error = 0;
+  double area = 0, share = 0, oxide = 0, margin = kInfinity, bridged = kInfinity, least = kInfinity,
+         most = 0, error = 0;
   bool measured = true;
   for (const ResponsePoint& p : response.points) {
     area = std::max(area, p.over_limit_area);
     share = std::max(share, p.over_limit_share);
     oxide = std::max(oxide, p.peak_oxide_field);
     margin = std::min(margin, p.oxide_margin);
+    bridged = std::min(bridged, p.bridged_margin);
     least = std::min(least, p.field_correction);
     most = std::max(most, p.field_correction);
     measured = measured && p.field_error;
@@ -173,6 +184,12 @@ std::string field_lines(const Response& response) {
         "at most {:.3g} of this amplitude holds; the numbers under voltage mean nothing "
         "physical\n",
         1 / margin, margin);
+  } else if (bridged < 1) {
+    out += fmt::format(
+        "warning: the dielectric is at risk: it holds the field that was solved, but under a "
+        "bridge or a contact on its thinnest place the field is {:.3g} times its strength; at most "
+        "{:.3g} of this amplitude is sure to hold, and voltage_for and studies go no farther\n",
+        1 / bridged, bridged);
   }
   for (const ResponsePoint& p : response.points) {
     if (!p.pull_in) continue;
@@ -224,7 +241,7 @@ std::string undriven_lines(const Response& response) {
         friction->parts.model
             ? fmt::format(" numerical ±{:.1f} mN model", 1e3 * *friction->parts.model)
             : "",
-        budget_text(*friction));
+        budget_text(*friction, response));
   return out;
 }
 

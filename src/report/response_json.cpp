@@ -137,6 +137,7 @@ Json point_json(const Response& response, std::size_t index) {
   point["field_correction"] = json_number(p.field_correction);
   point["field_error"] = p.field_error ? json_number(*p.field_error) : Json();
   point["oxide_margin"] = json_number(p.oxide_margin);
+  point["bridged_margin"] = json_number(p.bridged_margin);
   for (const VoltageAnswer& v : p.voltages) point["voltage_for"].push_back(voltage_json(v));
   if (p.pull_in) {
     point["pull_in_margin"] = measured(p.pull_in->margin);

@@ -114,6 +114,7 @@ TEST(Evaluation, GivesWhatADesignOrItsOptionsAskFor) {
   EXPECT_TRUE(plain.parameters.steps.empty());
   EXPECT_TRUE(plain.points[0].voltages.empty());
   EXPECT_EQ(plain.accuracy.target, 0);
+  EXPECT_DOUBLE_EQ(plain.points[0].bridged_margin, 5);  // 500 nm of 1 GV/m, at 100 V
   const Response all = evaluate_design(
       d, {.parameters = true, .appearance = true, .voltage_for = {0.1}, .threads = 3});
   EXPECT_TRUE(all.appearance);

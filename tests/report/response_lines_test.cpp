@@ -47,7 +47,7 @@ TEST(ResponseLines, WithoutADriveThereIsFrictionAlone) {
       "12.3 ±2.0              -       2.2      1500\n"
       "undriven (0 V): no modulation\n"
       "mean friction 100.0 ±10.0 mN; error: sampling 10.0 %; parameters not asked for "
-      "(--parameters); error from grid, solver, humidity, method, field, water: unknown\n");
+      "(--parameters); error from grid, solver: not measured\n");
   EXPECT_EQ(modulation_sparkline(r), "");
   r.points[0].friction_off.value = 0;  // no size to compare an error to
   EXPECT_EQ(below(r), "undriven (0 V): no modulation\nmean friction 0.0 ±10.0 mN; error: \n");
@@ -78,6 +78,15 @@ TEST(ResponseLines, OfTheFieldSayTheWorstOfAllHumidities) {
   EXPECT_EQ(last(), air + "pull: field rule times 0.80 to 1.20, by the 3-D field; good to 7 %\n");
   a.oxide_margin = 1;  // holds just so
   EXPECT_EQ(last(), air + "pull: field rule times 0.80 to 1.20, by the 3-D field; good to 7 %\n");
+  a.bridged_margin = 1;
+  EXPECT_EQ(last(), air + "pull: field rule times 0.80 to 1.20, by the 3-D field; good to 7 %\n");
+  a.bridged_margin = 0.8;
+  EXPECT_EQ(last(), air +
+                        "warning: the dielectric is at risk: it holds the field that was solved, "
+                        "but under a bridge or a contact on its thinnest place the field is "
+                        "1.25 times its strength; at most 0.8 of this amplitude is sure to hold, "
+                        "and voltage_for and studies go no farther\n"
+                        "pull: field rule times 0.80 to 1.20, by the 3-D field; good to 7 %\n");
   a.oxide_margin = 0.5;
   EXPECT_EQ(last(), air +
                         "warning: the dielectric breaks down: the field in a layer is 2 times its "
@@ -86,7 +95,7 @@ TEST(ResponseLines, OfTheFieldSayTheWorstOfAllHumidities) {
                         "note: 20 % RH: breakdown: the field in a layer of the dielectric is 2 "
                         "times its strength, the numbers under voltage mean nothing physical\n");
   EXPECT_NE(response_table(r).find("modulation: no number over humidity"), std::string::npos);
-  a.oxide_margin = 5;
+  a.oxide_margin = a.bridged_margin = 5;
   for (Measured PointQuantities::*area :
        {&PointQuantities::area_fraction_off, &PointQuantities::area_fraction_on}) {
     (b.*area).value = 1;

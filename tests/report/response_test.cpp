@@ -24,7 +24,8 @@ ResponsePoint numbered() {
   p.weight = 2;
   p.patch_pressure = 45e3;
   p.over_limit_area = 0.021, p.over_limit_share = 0.22;
-  p.peak_oxide_field = 2.3e8, p.oxide_margin = 2.4, p.peak_air_field = 2.5e7;
+  p.peak_oxide_field = 2.3e8, p.oxide_margin = 2.4, p.bridged_margin = 1.9,
+  p.peak_air_field = 2.5e7;
   p.field_correction = 0.94, p.field_error = 0.06, p.bridge_water_share = 0.27;
   return p;
 }
@@ -62,7 +63,7 @@ TEST(ResponseReport, TheTableHasEachNumberUnderItsHead) {
       "modulation █  mean 0.102 ±0.005  worst 0.102 ±0.005\n"
       "error of the mean modulation: sampling 4.9 %; parameters not asked for (--parameters); "
       "error "
-      "from grid, solver, humidity, method, field, water: unknown\n"
+      "from grid, solver: not measured\n"
       "not in ±: choices of the model (papilla explain), expected Kelvin condensation 0.2 %, "
       "what air withstands (model.air_limit), where 22 % of the pull stands\n"
       "air beyond its breakdown field on up to 2.1 % of the patch, 22 % of the pull; peak field in "
@@ -108,6 +109,7 @@ TEST(ResponseReport, OverHumidityItSaysHowItVaries) {
 
 TEST(ResponseReport, ErrorsAreNamedWithTheirShares) {
   Response r = driven();
+  r.plan.field = r.plan.water = true;
   r.points[0].modulation.value = 0.2;
   r.points[0].modulation.parts = {.sampling = 0.01,
                                   .grid = 0.02,
@@ -117,8 +119,8 @@ TEST(ResponseReport, ErrorsAreNamedWithTheirShares) {
                                   .parameters = 0.03,
                                   .water = 0.04};
   EXPECT_NE(response_table(r).find("sampling 5.0 %, grid 10 %, solver 0.5 %, method 2.5 %, "
-                                   "parameters 15 %; not in ±: water 20 %, common to all designs; "
-                                   "error from humidity, field: unknown\n"),
+                                   "parameters 15 %; beside it: water 20 %, common to all designs; "
+                                   "error from field: not measured\n"),
             std::string::npos)
       << response_table(r);
 }
@@ -200,7 +202,8 @@ TEST(ResponseReport, ForProgramsEveryQuantityIsUnderItsName) {
                                    {"peak_oxide_field", 2.3e8},
                                    {"field_correction", 0.94},
                                    {"field_error", 0.06},
-                                   {"oxide_margin", 2.4}})
+                                   {"oxide_margin", 2.4},
+                                   {"bridged_margin", 1.9}})
     EXPECT_EQ(p.at(key), value) << key;
   EXPECT_EQ(p["status"], "ok");
   EXPECT_NEAR(json["summary"]["mean_modulation"]["value"].get<double>(), 0.102, 1e-12);
