@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <utility>
 
+#include "base/check.h"
 #include "base/constants.h"
 #include "base/units.h"
 #include "base/watch.h"
@@ -32,14 +35,13 @@ double sum_of_squares(std::span<const double> r) {
   return sum;
 }
 
-LeastSquaresOptions fit_options(const Calibration& calibration, const CalibrationOptions& options) {
+LeastSquaresOptions fit_options(const Calibration& calibration) {
   LeastSquaresOptions fit;
   fit.iterations = calibration.iterations;
   fit.noise = 1e-6;  // of the contact solves; each parameter has its own step all the same
   fit.tolerance = 1e-4;
   fit.profiles = calibration.profiles;
   fit.profile_iterations = 4;
-  fit.note = options.note;
   return fit;
 }
 
@@ -115,8 +117,9 @@ class Fit {
     if (rounds > 0)
       text += fmt::format(", {} with the level of the checks; {} of those first, {}",
                           duration(corrected), corrections(), duration(rounds));
-    text += fmt::format("; the fit {} at most ({} iterations of {})", duration(fit),
-                        calibration_.iterations, an_iteration());
+    text += fmt::format("; the fit {} at most ({} iterations of {}){}", duration(fit),
+                        calibration_.iterations, an_iteration(),
+                        calibration_.profiles ? ", and profiles after it" : "");
     double all = rounds + fit;
     if (calibration_.belief) {
       const double belief = belief_evaluations(calibration_) * each +
@@ -125,9 +128,10 @@ class Fit {
       all += belief;
     }
     note(text +
-         fmt::format("; all {} at most, and more (up to {} times) where the finger moves far. "
+         fmt::format("; all {} at most{}, and more (up to {} times) where the finger moves far. "
                      "Ctrl-C keeps what is done",
-                     duration(all), kMostRounds));
+                     duration(all), calibration_.profiles ? " without the profiles" : "",
+                     kMostRounds));
   }
 
   // Evaluations of both levels that the correction and its slopes take, at one place.
@@ -148,28 +152,11 @@ class Fit {
 
   // Where the fitted finger is far from the start the correction is another: again from there.
   void descend() {
-    const std::vector<RowBand> bands = residuals_.bands();
-    const auto misses = [&](std::span<const double> p, std::span<double> r) {
-      const bool ok = residuals_.answers(calibration_, p, r);
-      Watch::look();
-      if (ok) trials_.push_back({{p.begin(), p.end()}, {r.begin(), r.end()}});
-      take_bands_off(r, bands);
-      if (++evaluations_ % kEvaluationsANote == 0) {
-        const int left = std::max(0, an_iteration() * calibration_.iterations - in_round_);
-        note(fmt::format("evaluation {}: chi2 {:.4g}; {} at most to the last iteration",
-                         evaluations_, sum_of_squares(r),
-                         duration(residuals_.seconds_a_model() * left)));
-      }
-      ++in_round_;
-      return ok;
-    };
-    const LeastSquaresOptions options = fit_options(calibration_, options_);
-    for (int round = 0; round < kMostRounds; ++round) {
-      in_round_ = 0;
-      trials_.clear();  // of other corrections
-      out_.fit = least_squares(parameters_, residuals_.size(), misses, options);
+    out_.iterations = calibration_.iterations;
+    for (int round = 1;; ++round) {
+      fit_once();
       const std::vector<double> found = out_.fit.values();
-      if (residuals_.correct(calibration_, found) < kSmallCorrection) break;
+      if (residuals_.correct(calibration_, found) < kSmallCorrection || round == kMostRounds) break;
       follow(found);
       note("frictions of the fine level have moved: fitted again from here");
       for (std::size_t i = 0; i < found.size(); ++i) parameters_[i].start = found[i];
@@ -181,15 +168,102 @@ class Fit {
     trials_.clear();  // of other corrections
   }
 
+  // By the correction as it is. Profiles cost many times the descent, so what is wrong with the
+  // data is said before them, and a finger that explains nothing has none.
+  void fit_once() {
+    in_descent_ = 0;
+    trials_.clear();  // of other corrections
+    const std::vector<RowBand> bands = residuals_.bands();
+    // The descent is asked for again with the profiles, call by call, and answered from here.
+    std::vector<Asked> descent;
+    bool again = false;
+    std::size_t replayed = 0;
+    const auto misses = [&](std::span<const double> p, std::span<double> r) {
+      if (again && replayed < descent.size()) {
+        const Asked& asked = descent[replayed++];
+        PAPILLA_CHECK(std::equal(p.begin(), p.end(), asked.at.begin(), asked.at.end()),
+                      "a descent asks the same again");
+        std::copy(asked.misses.begin(), asked.misses.end(), r.begin());
+        return asked.ok;
+      }
+      const bool ok = residuals_.answers(calibration_, p, r);
+      Watch::look();
+      if (ok) trials_.push_back({{p.begin(), p.end()}, {r.begin(), r.end()}});
+      take_bands_off(r, bands);
+      if (!again) descent.push_back({{p.begin(), p.end()}, {r.begin(), r.end()}, ok});
+      if (++evaluations_ % kEvaluationsANote == 0)
+        note(fmt::format("evaluation {}: chi2 {:.4g}; {}", evaluations_, sum_of_squares(r),
+                         time_left()));
+      ++in_descent_;
+      return ok;
+    };
+    LeastSquaresOptions options = fit_options(calibration_);
+    const int refits = std::exchange(options.profile_iterations, 0);
+    profiles_ = {};
+    out_.fit = least_squares(parameters_, residuals_.size(), misses, options);
+    std::vector<FitRow>& rows = residuals_.rows();
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].miss = out_.fit.residuals[i];
+    note(fmt::format("chi2 {:.4g} after the descent; {}", out_.fit.chi2, worst_miss_text(rows)));
+    const int wanted =
+        options.profiles
+            ? static_cast<int>(parameters_.size())
+            : static_cast<int>(std::count_if(out_.fit.parameters.begin(), out_.fit.parameters.end(),
+                                             [](const ParameterFit& p) { return p.at_bound; }));
+    if (wanted == 0) return;
+    if (!explains_data(out_)) {
+      if (!std::exchange(said_without_profiles_, true))
+        note(
+            fmt::format("profiles are not walked: chi2 per degree of freedom is {:.3g}, beyond "
+                        "{:g}, and intervals of a finger that does not explain the data say "
+                        "nothing",
+                        misfit(out_), kPoorFit));
+      return;
+    }
+    options.profile_iterations = refits;
+    options.note = [&](const std::string& text) {
+      if (profiles_.begun == 0) profiles_.since = std::chrono::steady_clock::now();
+      note(fmt::format("{}, {} of {}", text, ++profiles_.begun, wanted));
+    };
+    profiles_.wanted = wanted;
+    again = true;
+    out_.fit = least_squares(parameters_, residuals_.size(), misses, options);
+  }
+
+  // Of the descent by what it may take, of the profiles by what those before took.
+  std::string time_left() const {
+    if (profiles_.begun == 0) {
+      const int left = std::max(0, an_iteration() * calibration_.iterations - in_descent_);
+      return fmt::format("{} at most to the last iteration",
+                         duration(residuals_.seconds_a_model() * left));
+    }
+    const std::string which = fmt::format("profile {} of {}", profiles_.begun, profiles_.wanted);
+    if (profiles_.begun == 1) return which + ", whose time is known after the first";
+    const double taken =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - profiles_.since).count();
+    // Of those that are done and the one that is under way, half of it.
+    const double each = taken / (profiles_.begun - 0.5);
+    return fmt::format("{}, about {} left", which,
+                       duration(each * (profiles_.wanted - profiles_.begun + 0.5)));
+  }
+
   void finish() {
     out_.finger = with_parameters(calibration_, out_.fit.values());
+    // What no fit has moved keeps its name.
+    if (!calibration_.title.empty() && calibration_.iterations > 0)
+      out_.finger.name = calibration_.title;
     out_.finger.fitted_to.clear();
     for (const std::string& id : calibration_.fit)
       out_.finger.fitted_to += (out_.finger.fitted_to.empty() ? "" : " ") + id;
     out_.finger.uncertainty = deviations(out_.fit, options_.note);
     out_.rows = residuals_.rows();
     const std::vector<Estimate> after = residuals_.model(calibration_, out_.fit.values());
-    for (std::size_t i = 0; i < after.size(); ++i) out_.rows[i].after = after[i].value;
+    std::vector<double> misses(after.size());
+    residuals_.answers(after, misses);
+    take_bands_off(misses, residuals_.bands());
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      out_.rows[i].after = after[i].value;
+      out_.rows[i].miss = misses[i];
+    }
     out_.evaluations = evaluations_ + 2;  // the start, and the fitted finger
     out_.gap_before = capacitance_gap(out_.start);
     out_.gap_after = capacitance_gap(out_.finger);
@@ -199,13 +273,23 @@ class Fit {
     }
   }
 
+  struct Asked {
+    std::vector<double> at, misses;
+    bool ok;
+  };
+
   const Calibration& calibration_;
   const CalibrationOptions& options_;
   Residuals residuals_;
   std::vector<FitParameter> parameters_;
   CalibrationResult out_;
   std::vector<PosteriorTrial> trials_;
-  int evaluations_ = 0, in_round_ = 0;
+  int evaluations_ = 0, in_descent_ = 0;
+  bool said_without_profiles_ = false;
+  struct {
+    int begun = 0, wanted = 0;
+    std::chrono::steady_clock::time_point since{};  // the first began
+  } profiles_;
 };
 
 }  // namespace

@@ -17,8 +17,10 @@
 namespace papilla::calibrate {
 
 struct CalibrationResult {
-  Finger start, finger;  // before, and fitted; fitted_to of the fitted one names the claims
+  // Before, and fitted: named by the calibration's title; fitted_to names the claims.
+  Finger start, finger;
   LeastSquaresFit fit;
+  int iterations = 0;  // that the fit had at most
   std::vector<FitRow> rows;
   double chi2_before = 0;
   double gap_before = 0, gap_after = 0;      // capacitance_gap [m]

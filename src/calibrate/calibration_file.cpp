@@ -111,6 +111,7 @@ class CalibrationReader {
   void read_data() {
     from_file("data", [&](const std::string& file) {
       FrictionTable table = read_friction(file);
+      check_films(table.rows, file);
       out_.data = std::move(table.rows);
       out_.data_notes = std::move(table.notes);
     });
@@ -308,11 +309,15 @@ class CalibrationReader {
     const std::size_t before = document_.problems().size();
     for (const Node& child : node.children) member(child, where, field, p.fit, given);
     if (document_.problems().size() > before) return;
-    const std::string wrong = parameter_problem(p, given);
-    if (wrong.empty()) {
-      out_.parameters.push_back(std::move(p));
-    } else {
+    if (const std::string wrong = parameter_problem(p, given); !wrong.empty()) {
       document_.problem(node.place, where, wrong);
+    } else if (given.prior && (p.fit.prior < p.fit.low || p.fit.prior > p.fit.high)) {
+      document_.problem(
+          node.find("prior")->place, where + ".prior",
+          fmt::format("{} lies outside the bounds {} to {}", format_quantity(p.fit.prior, p.unit),
+                      format_quantity(p.fit.low, p.unit), format_quantity(p.fit.high, p.unit)));
+    } else {
+      out_.parameters.push_back(std::move(p));
     }
   }
 

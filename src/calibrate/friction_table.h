@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/rooms.h"
+#include "design/design.h"
 #include "scene/finger.h"
 
 namespace papilla::calibrate {
@@ -20,7 +21,7 @@ struct FrictionDatum {
 };
 struct FrictionTable {
   std::vector<FrictionDatum> rows;
-  std::vector<std::string> notes;  // for people: what was not read, and not taken
+  std::vector<std::string> notes;  // for people: what was not read, and not taken; what looks odd
 };
 
 // A table as `scene/measured_table.h` reads it, with what a fit needs of each row: a design beside
@@ -28,5 +29,11 @@ struct FrictionTable {
 // under a voltage its frequency too. Rows of other fingers than the first are refused: a fit is of
 // one, which has numbers of its own for each state. Throws InputError with every mistake.
 FrictionTable read_friction(const std::string& path);
+
+// A design, driven and pressed as a row says.
+Design as_measured(Design design, const FrictionDatum& row);
+// Throws InputError for every friction under a voltage at which the design's film breaks down (Eq.
+// electrostatics.9). path: of the table.
+void check_films(const std::vector<FrictionDatum>& rows, const std::string& path);
 
 }  // namespace papilla::calibrate

@@ -68,6 +68,18 @@ std::string problem_of(const Calibration& calibration, const std::vector<Measure
 
 }  // namespace
 
+const FitRow& worst_row(const std::vector<FitRow>& rows) {
+  return *std::max_element(rows.begin(), rows.end(), [](const FitRow& a, const FitRow& b) {
+    return std::abs(a.miss) < std::abs(b.miss);
+  });
+}
+
+std::string worst_miss_text(const std::vector<FitRow>& rows) {
+  const FitRow& row = worst_row(rows);
+  return fmt::format("the worst is {} ({}), {:+.1f} standard deviations", row.source, row.what,
+                     row.miss);
+}
+
 Residuals::Residuals(const Calibration& calibration, int threads, const std::string& folder)
     : calibration_(calibration), threads_(threads), factors_(calibration.data.size()) {
   const std::set<std::string> wanted(calibration.fit.begin(), calibration.fit.end());
@@ -289,15 +301,7 @@ void Residuals::group_data() {
   }
   for (const auto& [key, rows] : same) {
     const FrictionDatum& d = calibration_.data[rows.front()];
-    MeasuredGroup s{read_design(d.design), rows, {}};
-    // The table has voltages, whatever drives the design.
-    s.design.drive.control = DriveControl::Voltage;
-    s.design.drive.current = 0;
-    s.design.drive.source_compliance = 0;
-    s.design.drive.amplitude = d.amplitude;
-    if (d.frequency > 0) s.design.drive.frequency = d.frequency;
-    s.design.finger.load = d.load;
-    if (d.state) s.design.finger.state = *d.state;
+    MeasuredGroup s{as_measured(read_design(d.design), d), rows, {}};
     std::set<double> humidities;
     for (std::size_t i : rows) humidities.insert(calibration_.data[i].relative_humidity);
     s.design.environment.relative_humidity.assign(humidities.begin(), humidities.end());

@@ -23,7 +23,13 @@ struct FitRow {
   double low = 0, high = 0, sd = 0;  // what the data say; low = high: a value
   double sampling_sd = 0;            // of the model, from its skins; already in the weight
   double before = 0, after = 0;      // the model
+  double miss = 0;                   // of `after`: Eq. calibration.5
 };
+
+// The row that is missed by most, of one at least.
+const FitRow& worst_row(const std::vector<FitRow>& rows);
+// "the worst is line 6 (F_on of ...), -22.6 standard deviations".
+std::string worst_miss_text(const std::vector<FitRow>& rows);
 
 // Rows of one design, drive, load and state: one evaluation over their humidities.
 struct MeasuredGroup {

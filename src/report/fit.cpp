@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "base/constants.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "numerics/statistics.h"
 #include "report/fit_belief.h"
 #include "report/json.h"
 
@@ -18,6 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kIdentified = 0.5;   // share of the data in what is known of a parameter
 constexpr double kInDirection = 0.2;  // weight of a parameter that belongs to a direction
+constexpr double kKnown = 1000;       // [%] half an interval beyond which nothing is said of it
 
 std::string shown(const CalibrationParameter& p, double si) {
   const auto unit = find_unit(p.unit);
@@ -33,15 +37,37 @@ std::string band(const FitRow& row) {
 }
 
 std::string misfit_text(const CalibrationResult& r) {
-  std::size_t worst = 0;
-  for (std::size_t i = 0; i < r.rows.size(); ++i) {
-    if (std::abs(r.fit.residuals[i]) > std::abs(r.fit.residuals[worst])) worst = i;
-  }
   return fmt::format(
       "the fitted finger does not explain the data: χ² per degree of freedom is {:.3g}, where 1 is "
-      "expected; the worst is {} ({}), {:+.1f} standard deviations. Check units and the stated "
-      "standard deviations, or let more parameters move; do not use this finger",
-      misfit(r), r.rows[worst].source, r.rows[worst].what, r.fit.residuals[worst]);
+      "expected; {}. Check units and the stated standard deviations, or let more parameters move; "
+      "do not use this finger",
+      misfit(r), worst_miss_text(r.rows));
+}
+
+// What stopped it, without its full stop.
+std::string stopped_by(const CalibrationResult& r) {
+  std::string out = r.fit.message;
+  while (out.ends_with('.')) out.pop_back();
+  return out;
+}
+
+// χ² per degree of freedom by the stated deviations alone: what the model's sampling adds to them
+// would make any table's look large. None where a band counts as no miss.
+std::optional<double> misfit_as_stated(const CalibrationResult& r) {
+  double sum = 0;
+  for (const FitRow& row : r.rows) {
+    if (row.low != row.high) return std::nullopt;
+    sum += square((row.after - row.low) / row.sd);
+  }
+  return sum / std::max(1, r.fit.degrees_of_freedom);
+}
+
+// χ² per degree of freedom that less than one table in two thousand falls below where its
+// deviations are right (Wilson and Hilferty 1931); 0 for few rows.
+double least_misfit(int degrees_of_freedom) {
+  const double variance = 2 / (9.0 * std::max(1, degrees_of_freedom));
+  const double root = 1 - variance - normal_quantile(0.9995) * std::sqrt(variance);
+  return root > 0 ? root * root * root : 0;
 }
 
 bool holds(const ClaimResult& r) {
@@ -71,7 +97,7 @@ std::string summary_section(const Calibration& c, const CalibrationResult& r) {
       r.rows.size(), c.parameters.size(), r.chi2_before, r.fit.chi2, r.fit.prior_chi2,
       r.fit.degrees_of_freedom, std::sqrt(r.fit.variance_factor),
       counted(r.evaluations, "evaluation"),
-      r.fit.converged ? "converged" : "stopped: " + r.fit.message);
+      r.fit.converged ? "converged" : "stopped: " + stopped_by(r));
   out += fmt::format(
       "Skins {} to {} at level {}{}.\n", c.sampling.first_skin,
       c.sampling.first_skin + c.sampling.skins - 1, c.sampling.level,
@@ -97,8 +123,12 @@ std::vector<std::string> verdicts(const Calibration& c, const CalibrationResult&
       out.push_back(
           fmt::format("{} is known to one side only: its interval ends at a bound", path));
     } else {
+      const double half = 50 * (f.high - f.low) / std::abs(f.value);  // [%]
       out.push_back(
-          fmt::format("{} is known to {:.2g} %", path, 50 * (f.high - f.low) / std::abs(f.value)));
+          half < kKnown
+              ? fmt::format("{} is known within ± {} % (95 %)", path, significant(half, 2))
+              : fmt::format("{} is not known: its 95 % interval is wider than ± {:g} %", path,
+                            kKnown));
     }
   }
   for (const FitDirection& d : r.fit.directions) {
@@ -130,7 +160,9 @@ std::string parameters_section(const Calibration& c, const CalibrationResult& r)
                        shown(p, p.fit.start), shown(p, f.value), shown(p, f.low),
                        f.low_open ? " (bound)" : "", shown(p, f.high),
                        f.high_open ? " (bound)" : "", prior, 100 * f.data_share,
-                       f.at_bound ? "; at its bound, interval by profile" : "");
+                       !f.at_bound                 ? ""
+                       : f.low_open && f.high_open ? "; at its bound"
+                                                   : "; at its bound, interval by profile");
   }
   return out;
 }
@@ -163,17 +195,23 @@ std::string directions_section(const Calibration& c, const CalibrationResult& r)
   return out;
 }
 
-std::string residuals_section(const CalibrationResult& r) {
+std::string residuals_section(const Calibration& c, const CalibrationResult& r) {
   std::string out =
       "\n## Residuals\n\n| source | quantity | data | sd | sampling of the model | before | after "
       "| miss, sd |\n|---|---|---|---|---|---|---|---|\n";
-  for (std::size_t i = 0; i < r.rows.size(); ++i) {
-    const FitRow& row = r.rows[i];
-    out += fmt::format("| {} | {} | {} | {:.3g} | {:.2g} | {:.4g} | {:.4g} | {:+.2f} |\n",
-                       row.source, row.what, band(row), row.sd, row.sampling_sd, row.before,
-                       row.after, r.fit.residuals[i]);
+  for (const FitRow& row : r.rows) {
+    out +=
+        fmt::format("| {} | {} | {} | {:.3g} | {:.2g} | {:.4g} | {:.4g} | {:+.2f} |\n", row.source,
+                    row.what, band(row), row.sd, row.sampling_sd, row.before, row.after, row.miss);
   }
-  return out;
+  return out +
+         "\nMiss: after less data (beyond its nearer end, of a band), over the root of the squares "
+         "of sd and sampling." +
+         (c.data.empty()
+              ? ""
+              : " Frictions after are corrected to the finer level at the fitted finger; "
+                "the fit had the correction of where it started, and χ² is of that.") +
+         "\n";
 }
 
 std::string claims_section(const Calibration& c, const JudgedFit& claims, bool fitted) {
@@ -253,8 +291,7 @@ Json directions_json(const CalibrationResult& r) {
 
 Json residuals_json(const CalibrationResult& r) {
   Json rows = Json::array();
-  for (std::size_t i = 0; i < r.rows.size(); ++i) {
-    const FitRow& row = r.rows[i];
+  for (const FitRow& row : r.rows) {
     rows.push_back({{"source", row.source},
                     {"what", row.what},
                     {"low", json_number(row.low)},
@@ -263,7 +300,7 @@ Json residuals_json(const CalibrationResult& r) {
                     {"sampling_sd", row.sampling_sd},
                     {"before", row.before},
                     {"after", row.after},
-                    {"residual", r.fit.residuals[i]}});
+                    {"residual", row.miss}});
   }
   return rows;
 }
@@ -288,15 +325,29 @@ Json claims_rows_json(const Calibration& c, const JudgedFit& claims) {
 }  // namespace
 
 std::string calibration_warning(const CalibrationResult& result) {
-  return explains_data(result) ? "" : misfit_text(result);
+  std::vector<std::string> out;
+  if (!result.fit.converged)
+    out.push_back(
+        fmt::format("not converged after {} ({}): raise `iterations`; what is written is where it "
+                    "stopped",
+                    counted(result.iterations, "iteration"), stopped_by(result)));
+  if (!explains_data(result)) out.push_back(misfit_text(result));
+  if (const auto stated = misfit_as_stated(result);
+      stated && *stated < least_misfit(result.fit.degrees_of_freedom))
+    out.push_back(
+        fmt::format("the stated standard deviations are larger than what is missed: by them alone "
+                    "χ² per degree of freedom is {:.2g}, where 1 is expected. Check their unit; "
+                    "intervals are too wide with them",
+                    *stated));
+  return join_names(out, "; ");
 }
 
 std::string calibration_markdown(const Calibration& c, const CalibrationResult& r,
                                  const JudgedFit& claims) {
   return summary_section(c, r) + parameters_section(c, r) + correlations_section(c, r) +
          directions_section(c, r) + (r.belief ? belief_section(c, *r.belief) : "") +
-         residuals_section(r) + claims_section(c, claims, true) + claims_section(c, claims, false) +
-         other_measurements_section(r);
+         residuals_section(c, r) + claims_section(c, claims, true) +
+         claims_section(c, claims, false) + other_measurements_section(r);
 }
 
 std::string calibration_json(const Calibration& c, const CalibrationResult& r,

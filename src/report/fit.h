@@ -17,7 +17,8 @@ struct JudgedFit {
   std::vector<ClaimResult> before, after;
 };
 
-// Why the fitted finger is not to be used, for people; "" where it explains the data.
+// For people: that the fit stopped early, why the fitted finger is not to be used, that stated
+// deviations are too large; "" where nothing is wrong.
 std::string calibration_warning(const CalibrationResult& result);
 
 std::string calibration_markdown(const Calibration& calibration, const CalibrationResult& result,

@@ -236,7 +236,7 @@ std::vector<Part> calibration_reference() {
   const Calibration standard;
   std::vector<FieldRow> head{
       key("schema_version", "of this file: 1"),
-      key("title", "a text"),
+      key("title", "a text, and the name of the fitted finger"),
       key("finger", "the file where the fit starts, e.g. \"fingers/reference.toml\"; required"),
       key("data",
           "a table of measured frictions, a CSV with a line a measurement: design (a file), "
@@ -248,14 +248,17 @@ std::vector<Part> calibration_reference() {
       key("hold_out", "claims that are judged with the fitted finger alone"),
       key("iterations",
           fmt::format("of the fit; 0 leaves the finger as it is; {}", standard.iterations)),
-      key("profiles", "whether intervals are walked along the misfit; false: by the slopes"),
+      key("profiles",
+          "whether intervals are walked along the misfit; false: by the slopes; not walked where "
+          "the fitted finger does not explain the data"),
       key("sampling",
           "where the fit is computed: level, skins, first_skin, grid; frictions are corrected to "
           "the level of `check`"),
       key("check", "the same, of the judgement and of the correction"),
       key("parameters.\"PATH\" = { low = ..., high = ..., prior = ..., factor = ... }",
           "the fit may change this number of the finger (`papilla describe finger`), or "
-          "\"water.scale\", which multiplies all water volumes; known before within a factor"),
+          "\"water.scale\", which multiplies all water volumes; known before within a factor, by a "
+          "prior between its bounds"),
       key("parameters.\"PATH\" = { low = ..., high = ..., prior = ..., sd = ... }",
           "the same, known within this standard deviation; without a prior: the bounds alone"),
       key("parameters.\"PATH\".start", "where the fit begins; the finger's own where left out"),

@@ -261,22 +261,55 @@ class TableReader {
     }
   }
 
-  // A voltage draws the finger to the surface: columns that surely say the contrary are exchanged.
+  // A voltage draws the finger to the surface: columns that surely say the contrary are exchanged
+  // where most rows say so, and a few rows have a wrong number.
   void check_order() {
     double less = 0, variance = 0;
+    std::vector<const MeasuredRow*> both, lower;
     for (const MeasuredRow& r : out_.rows) {
       if (!r.off || !r.on) continue;
       less += *r.off - *r.on;
-      variance += square(std::max(r.off_sd.value_or(0), kScatter * *r.off)) +
-                  square(std::max(r.on_sd.value_or(0), kScatter * *r.on));
+      variance += square(scatter(*r.off, r.off_sd)) + square(scatter(*r.on, r.on_sd));
+      both.push_back(&r);
+      if (*r.off > *r.on) lower.push_back(&r);
     }
     if (!(less > 0)) return;
     constexpr const char* kLess = "under voltage the finger rubs less on average than without it";
-    if (less > kBeyondScatter * std::sqrt(variance))
-      problem("F_on", fmt::format("{}: are F_off and F_on exchanged?", kLess));
-    else
+    if (!(less > kBeyondScatter * std::sqrt(variance))) {
       out_.notes.push_back(
           fmt::format("{}, by no more than touches scatter; exchanged columns look so too", kLess));
+    } else if (2 * lower.size() > both.size() || !name_lower(both, lower)) {
+      problem("F_on", fmt::format("{}: are F_off and F_on exchanged?", kLess));
+    }
+  }
+
+  static double scatter(double value, std::optional<double> sd) {
+    return std::max(sd.value_or(0), kScatter * value);
+  }
+
+  // The rows that surely say so, each beside the F_off over F_on that the table's middle row has.
+  // false: none does by itself.
+  bool name_lower(const std::vector<const MeasuredRow*>& both,
+                  const std::vector<const MeasuredRow*>& lower) {
+    std::vector<double> ratios;
+    ratios.reserve(both.size());
+    for (const MeasuredRow* r : both) ratios.push_back(*r->off / *r->on);
+    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>((ratios.size() - 1) / 2);
+    std::nth_element(ratios.begin(), middle, ratios.end());
+    const std::size_t before = problems_.size();
+    for (const MeasuredRow* r : lower) {
+      if (*r->off - *r->on <=
+          kBeyondScatter * std::hypot(scatter(*r->off, r->off_sd), scatter(*r->on, r->on_sd)))
+        continue;
+      const double ratio = *r->off / *r->on;
+      problems_.push_back(
+          {file_, r->line, 0, "F_off",
+           fmt::format("{} N is {} times the F_on of the same line, where other rows have {}: one "
+                       "of the two is off by a factor of {}",
+                       significant(*r->off, 4), significant(ratio, 3), significant(*middle, 3),
+                       significant(ratio / *middle, 3))});
+    }
+    return problems_.size() > before;
   }
 
   Lines lines_;

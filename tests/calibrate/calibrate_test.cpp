@@ -121,6 +121,7 @@ skins = 4
   EXPECT_NE(calibration_json(calibration, r).find("does not explain"), std::string::npos);
   CalibrationResult good = r;
   good.fit.chi2 = 2.0 * good.fit.degrees_of_freedom;
+  good.fit.converged = true;
   EXPECT_EQ(calibration_warning(good), "");
 }
 
@@ -261,6 +262,8 @@ skins = 4
   residuals.correct(calibration, found);
   EXPECT_NEAR(r.rows[0].after, residuals.model(calibration, found)[0].value,
               1e-9 * r.rows[0].after);
+  EXPECT_NEAR(r.rows[0].miss, (r.rows[0].after - 100) / std::hypot(100, r.rows[0].sampling_sd),
+              1e-12);
   EXPECT_EQ(r.finger.fitted_to, "");
   EXPECT_TRUE(explains_data(r));
 }

@@ -263,6 +263,63 @@ TEST_F(FitByHand, OfOneNumberIsTheMeanByItsWeights) {
     near(r.friction_coefficient[k], own.points[k].friction_off.value / load);
 }
 
+// A growth of 58.5 ± 3, which a finger of at most `high` explains or does not.
+struct Walked {
+  CalibrationResult result;
+  std::vector<std::string> notes;
+
+  Walked(double high, int iterations) {
+    Calibration c;
+    c.title = "mine";
+    c.finger.name = "start";
+    c.finger.macro.area_growth = 0.25;
+    c.fit = {"M3"};
+    CalibrationParameter p{"macro.area_growth", "%", {}};
+    p.fit = {.name = p.path, .start = 0.25, .low = 0.2, .high = high, .step = 0.04};
+    c.parameters = {p};
+    c.iterations = iterations;
+    c.profiles = true;
+    CalibrationOptions options;
+    options.threads = 1;
+    options.check = false;
+    options.note = [&](const std::string& text) { notes.push_back(text); };
+    result = fit_finger(c, options);
+  }
+  int count(const std::string& beginning) const {
+    return static_cast<int>(std::count_if(notes.begin(), notes.end(), [&](const std::string& text) {
+      return text.starts_with(beginning);
+    }));
+  }
+};
+
+TEST_F(FitByHand, SaysItsWorstRowAndWalksProfilesOfWhatExplainsTheData) {
+  const Walked w(1.2, 15);
+  EXPECT_TRUE(explains_data(w.result));
+  EXPECT_EQ(w.count("chi2 "), 2);  // at the start, after the descent
+  EXPECT_EQ(w.count("profile of macro.area_growth, 1 of 1"), 1);
+  EXPECT_EQ(w.count("profiles are not walked"), 0);
+  // chi2 rises by t^2: no prior, no degree of freedom, so by the normal distribution.
+  const ParameterFit& f = w.result.fit.parameters[0];
+  EXPECT_NEAR(f.value, 0.585, 1e-4);
+  EXPECT_NEAR(f.low, 0.585 - 1.96 * 0.03, 2e-4);
+  EXPECT_NEAR(f.high, 0.585 + 1.96 * 0.03, 2e-4);
+}
+
+TEST_F(FitByHand, WalksNoProfileOfAFingerThatExplainsNothing) {
+  const Walked w(0.3, 15);
+  EXPECT_FALSE(explains_data(w.result));
+  EXPECT_EQ(w.count("profile of"), 0);
+  EXPECT_EQ(w.count("profiles are not walked: chi2 per degree of freedom is 90."), 1);
+  ASSERT_EQ(w.count("chi2 90.25 after the descent; the worst is M3 ("), 1);
+  EXPECT_TRUE(w.result.fit.parameters[0].low_open && w.result.fit.parameters[0].high_open);
+  EXPECT_NEAR(w.result.rows[0].miss, -9.5, 1e-3);
+}
+
+TEST_F(FitByHand, NamesItsFingerByTheTitleWhereItMayMove) {
+  EXPECT_EQ(Walked(1.2, 15).result.finger.name, "mine");
+  EXPECT_EQ(Walked(1.2, 0).result.finger.name, "start");
+}
+
 // The model's answers lie in the folder until the fit ends: a second call asks the same again.
 TEST_F(FitByHand, AStoppedFitGoesOnToTheSameFinger) {
   Calibration c;

@@ -86,7 +86,7 @@ TEST_F(TablesAndFiles, NumbersLieInTheirRanges) {
   };
   EXPECT_EQ(told("0,0,0,0.2,0.1,1e-9,,"), "");
   EXPECT_EQ(told("100 %,1e5,1e9,100,1000,1000,1000,1000"), "");
-  EXPECT_EQ(told("0.5,1,1,1e-6,1e-9,1,1e-9,1"), "");
+  EXPECT_EQ(told("0.5,1,1,1e-6,1e-9,1e-9,1e-9,1e-9"), "");
   EXPECT_EQ(told("1.01,0,0,0.2,0.1,1,,"), "2:2: relative_humidity: 1.01 lies outside 0 to 1 \n");
   EXPECT_EQ(told("30,0,0,0.2,0.1,1,,"),
             "2:2: relative_humidity: 30 lies outside 0 to 1: write it as \"30 %\"\n");
@@ -173,14 +173,83 @@ TEST_F(TablesAndFiles, MissingColumnsAreSaidOnceWithWhatStandsThere) {
             "plate\n");
 }
 
+// Under a voltage a frequency is needed, of a friction without it too.
+TEST_F(TablesAndFiles, AMissingFrequencyIsSaidOnceOfADrivenTable) {
+  const std::string head = "design,load_N,humidity_percent,voltage_V,F_off_N,F_off_sd_N\n";
+  const auto told = [&](const std::string& volts) {
+    const std::string row = "m3_samples/flat.toml,0.2,35," + volts + ",0.1,0.01\n";
+    return refusal([&] { read_friction(write("q.csv", head + row + row)); });
+  };
+  EXPECT_EQ(told("200"), "1:0: frequency: no such column: write frequency_Hz\n");
+  EXPECT_EQ(told("0"), "");
+}
+
+// Forces in N with deviations in mN: what most rows say so large is another unit; one row is not.
+TEST_F(TablesAndFiles, StandardDeviationsOfAnotherUnitAreAskedAbout) {
+  const auto told = [&](const std::string& rows) {
+    return refusal([&] { read_friction(write("d.csv", std::string(kHeader) + rows)); });
+  };
+  const std::string row = "m3_samples/flat.toml,0.5,200,5000,0.2,", large = row + "0.035,1.4,,\n";
+  EXPECT_EQ(told(row + "0.035,0.0014,0.06,0.0023\n" + large + large),
+            "3:0: F_off_sd: 1.4 N is 40 times the value, and 2 of 3 rows state more than 3 times "
+            "theirs: is the standard deviation in mN? Then 0.0014 N is meant\n");
+  EXPECT_EQ(told(row + "0.035,0.001,0.06,0.24\n").substr(0, 40),
+            "2:0: F_on_sd: 0.24 N is 4 times the valu");
+  EXPECT_EQ(told(row + "0.035,0.105,0.06,0.18\n"), "");
+  EXPECT_EQ(told(row + "0.035,0.001,,\n" + large), "");
+}
+
+TEST_F(TablesAndFiles, CopiesAndRowsFarApartAreRemarked) {
+  const std::string row = "m3_samples/flat.toml,0.5,200,5000,0.2,",
+                    first = row + "0.03,0.003,0.06,0.004\n",
+                    other = "m3_samples/flat.toml,0.6,200,5000,0.2,0.09,0.003,0.12,0.004\n";
+  const auto notes = [&](const std::string& rows) {
+    return read_friction(write("c.csv", std::string(kHeader) + rows)).notes;
+  };
+  using Notes = std::vector<std::string>;
+  EXPECT_EQ(notes(first + other), Notes{});
+  EXPECT_EQ(notes(first + other + first),
+            Notes{"copies count as measurements of their own: line 4 of line 2"});
+  // Up to five deviations of the difference are chance.
+  EXPECT_EQ(notes(row + "0.0549,0.004,,\n" + first), Notes{});
+  EXPECT_EQ(notes(row + "0.07,0.004,0.05,0.003\n" + other + first),
+            Notes{"lines 2 and 4 are of the same conditions, and their F_off are 8 standard "
+                  "deviations of their difference apart"});
+  // What another column tells apart is no copy.
+  const std::string days =
+      "design,load_N,humidity_percent,F_off_N,F_off_sd_N,day\n"
+      "m3_samples/flat.toml,0.2,35,0.1,0.01,1\nm3_samples/flat.toml,0.2,35,0.1,0.01,2\n";
+  EXPECT_EQ(read_friction(write("e.csv", days)).notes, Notes{});
+}
+
+// Half a micrometre of SiO2 at 1 GV/m holds 500 V.
+TEST_F(TablesAndFiles, AFrictionAboveTheFilmsBreakdownIsRefusedWithItsLine) {
+  const auto told = [&](const std::string& rows) {
+    write("v.csv", std::string(kHeader) + rows);
+    return refusal([&] {
+      read(write("v.toml",
+                 "schema_version = 1\nfinger = \"fingers/reference.toml\"\ndata = \"v.csv\"\n"
+                 "[parameters]\n\"skin.softening\" = { low = 1.2, high = 4.0 }\n"));
+    });
+  };
+  const auto row = [](const std::string& volts, const std::string& on) {
+    return "m3_samples/flat.toml,20 %," + volts + ",5000,0.2,0.05,0.01," + on + "\n";
+  };
+  EXPECT_EQ(told(row("490", "0.5,0.2")), "");
+  EXPECT_EQ(told(row("150", "0.1,0.02") + row("1500", "0.5,0.2")),
+            "3:0: voltage: 1500 V, but the film breaks down at 500 V: leave F_on out, or state in "
+            "flat.toml the strength of a film that withstood it\n");
+  EXPECT_EQ(told(row("1500", ",")), "");  // without a voltage nothing breaks
+}
+
 // A design beside the table comes before one of the same name among the designs.
 TEST_F(TablesAndFiles, ADesignBesideItsTableComesFirst) {
   std::filesystem::create_directories(folder_ + "/m3_samples");
   const std::string own = write("m3_samples/flat.toml", "schema_version = 1\n");
   const auto rows =
       read_friction(write("d.csv", std::string(kHeader) +
-                                       "m3_samples/flat.toml,0.5,0,0,0.2,0.1,1,,\n"
-                                       "m3_samples/a3h350.toml,0.5,0,0,0.2,0.1,1,,\n"))
+                                       "m3_samples/flat.toml,0.5,0,0,0.2,0.1,0.01,,\n"
+                                       "m3_samples/a3h350.toml,0.5,0,0,0.2,0.1,0.01,,\n"))
           .rows;
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].design, own);
@@ -297,6 +366,11 @@ TEST_F(TablesAndFiles, MistakesOfAFitAreToldInTheirWords) {
   EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, prior = 2.0, factor = 1.5, sd = "
                       "0.2 }"),
             where + "a prior has one width: `factor` or `sd`\n");
+  EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, prior = 3.5, sd = 0.2 }"),
+            "5:51: parameters.skin.softening.prior: 3.5 lies outside the bounds 1.2 to 3\n");
+  EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, prior = 1.1, factor = 2.0 }"),
+            "5:51: parameters.skin.softening.prior: 1.1 lies outside the bounds 1.2 to 3\n");
+  EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, prior = 3.0, sd = 0.2 }"), "");
   EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, start = 3.1 }"),
             where + "the finger's 3.1 lies outside the bounds\n");
   EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, start = 1.1 }"),

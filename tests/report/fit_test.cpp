@@ -44,12 +44,11 @@ struct Fitted {
                          .data_share = 0.6}};
     r.fit.correlation = {1, -0.35, -0.35, 1};
     r.fit.directions = {{4.5, {0.98, 0.1}}, {0.5, {-0.3, 0.95}}};
-    r.fit.residuals = {0.5, -1.25, 2};
     r.fit.chi2 = 7.5, r.fit.prior_chi2 = 0.75, r.fit.degrees_of_freedom = 3;
     r.fit.variance_factor = 2.25;
-    r.rows = {{"M1", "friction", 0.1, 0.3, 0.02, 0.003, 0.4, 0.25},
-              {"M2", "ratio", 1.5, 1.5, 0.25, 0.05, 1.75, 1.625},
-              {"M3", "more", 2, kInfinity, 0.5, 0.01, 1, 3}};
+    r.rows = {{"M1", "friction", 0.1, 0.3, 0.02, 0.003, 0.4, 0.25, 0.5},
+              {"M2", "ratio", 1.5, 1.5, 0.25, 0.05, 1.75, 1.625, -1.25},
+              {"M3", "more", 2, kInfinity, 0.5, 0.01, 1, 3, 2}};
     r.chi2_before = 30;
     r.evaluations = 17;
     r.gap_before = 1.5e-6, r.gap_after = 1.25e-6;
@@ -83,12 +82,48 @@ TEST(FitReport, ForPeopleHasEachNumberInTheUnitBesideIt) {
 TEST(FitReport, AMisfitNamesItsWorstRow) {
   Fitted f;
   EXPECT_EQ(calibration_warning(f.r), "");
-  f.r.fit.residuals = {1, -40, 2};
+  f.r.rows[1].miss = -40;
   f.r.fit.chi2 = 1605;
   const std::string warning = calibration_warning(f.r);
   EXPECT_NE(warning.find("χ² per degree of freedom is 53"), std::string::npos) << warning;
   EXPECT_NE(warning.find("the worst is M2 (ratio), -40.0 standard deviations"), std::string::npos)
       << warning;
+}
+
+TEST(FitReport, AFitThatStoppedEarlySaysWhatToDo) {
+  Fitted f;
+  f.r.fit.converged = false, f.r.iterations = 4, f.r.fit.message = "the end. Iterations: 4.";
+  const std::string warning =
+      "not converged after 4 iterations (the end. Iterations: 4): raise `iterations`; what is "
+      "written is where it stopped";
+  EXPECT_EQ(calibration_warning(f.r), warning);
+  const std::string page = calibration_markdown(f.c, f.r);
+  EXPECT_NE(page.find("Warning: " + warning + ".\n"), std::string::npos) << page;
+  EXPECT_NE(page.find("stopped: the end. Iterations: 4.\n"), std::string::npos) << page;
+  EXPECT_EQ(nlohmann::json::parse(calibration_json(f.c, f.r))["warning"], warning);
+}
+
+// Twenty values, each missed by a share of its deviation; chi squared of 20 degrees of freedom is
+// below 5.4 in one of two thousand tables.
+TEST(FitReport, DeviationsThatAreTooLargeAreSaidSo) {
+  Fitted f;
+  const auto warning = [&](double missed) {
+    f.r.rows.assign(20, {"line 2", "F_off", 10, 10, 0.5, 40, 12, 10 + 0.5 * missed, 0.001});
+    f.r.fit.degrees_of_freedom = 20, f.r.fit.chi2 = 0.01;
+    return calibration_warning(f.r);
+  };
+  EXPECT_EQ(warning(1), "");
+  EXPECT_EQ(warning(0.54), "");
+  EXPECT_TRUE(
+      warning(0.48).starts_with("the stated standard deviations are larger than what is "
+                                "missed: by them alone χ² per degree of freedom is 0.23"))
+      << warning(0.48);
+  // A band leaves room within it, and few rows are near by chance.
+  f.r.rows[0].high = 11;
+  EXPECT_EQ(calibration_warning(f.r), "");
+  f.r.rows.resize(1);
+  f.r.rows[0].high = 10, f.r.fit.degrees_of_freedom = 1;
+  EXPECT_EQ(calibration_warning(f.r), "");
 }
 
 TEST(FitReport, ForProgramsIsInSi) {
@@ -189,14 +224,25 @@ TEST(FitReport, SaysWhatTheDataKnowOfEachParameter) {
   // Half of 0.5 um of 2.5 um, half of 0.95 of 1.25; a share of a half is enough.
   f.r.fit.parameters[0].data_share = 0.5, f.r.fit.parameters[0].high_open = false;
   f.r.fit.parameters[1].at_bound = false;
-  EXPECT_EQ(verdict(), "Verdict: skin.rms is known to 10 %; water.scale is known to 38 %" + apart);
+  EXPECT_EQ(verdict(),
+            "Verdict: skin.rms is known within ± 10 % (95 %); water.scale is known within ± 38 % "
+            "(95 %)" +
+                apart);
+  f.r.fit.parameters[1].high = 0.8 + 2 * 2.3 * 1.25;
+  EXPECT_NE(verdict().find("water.scale is known within ± 230 % (95 %)"), std::string::npos)
+      << verdict();
+  f.r.fit.parameters[1].high = 100;
+  EXPECT_NE(verdict().find("water.scale is not known: its 95 % interval is wider than ± 1000 %"),
+            std::string::npos)
+      << verdict();
+  f.r.fit.parameters[1].high = 1.75;
   f.r.fit.parameters[0].low_open = true;
   f.r.fit.directions[1] = {0.5, {0.1, 0.99}};  // one parameter is not apart from itself
   EXPECT_EQ(verdict(),
             "Verdict: skin.rms is known to one side only: its interval ends at a bound; "
-            "water.scale is known to 38 %.");
+            "water.scale is known within ± 38 % (95 %).");
   f.r.fit.directions = {{1, {0.7, 0.7}}, {0.99, {0.2, -0.2}}};  // below 1 the prior decides
-  EXPECT_TRUE(verdict().ends_with("38 %" + apart)) << verdict();
+  EXPECT_TRUE(verdict().ends_with("38 % (95 %)" + apart)) << verdict();
   EXPECT_EQ(verdict().find(apart), verdict().rfind(apart));
   EXPECT_EQ(nlohmann::json::parse(calibration_json(f.c, f.r))["verdicts"].size(), 3u);
 }

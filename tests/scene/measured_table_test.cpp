@@ -107,6 +107,20 @@ TEST(MeasuredTable, TakesForExchangedOnlyWhatScatterCannotExplain) {
   EXPECT_TRUE(table(head + touch + "flat,0.2,35,200,0.1,0.005,0.12\n").notes.empty());
 }
 
+// One number that is ten times too large is no exchange of columns.
+TEST(MeasuredTable, NamesTheRowWhoseFrictionIsOffAmongOthers) {
+  const std::string head = "design,load_N,humidity_percent,voltage_V,F_off_N,F_on_N\n",
+                    row = "flat,0.2,35,200,0.1,0.16\n", off = "flat,0.2,35,200,1.0,0.16\n";
+  const auto problems = refused(head + row + off + "flat,0.2,35,200,0.1,0.099\n" + row + row);
+  EXPECT_TRUE(says(problems,
+                   "F_off: 1 N is 6.25 times the F_on of the same line, where other rows "
+                   "have 0.625: one of the two is off by a factor of 10"));
+  EXPECT_TRUE(says(problems, ":3:"));
+  EXPECT_FALSE(says(problems, "exchanged?"));
+  EXPECT_FALSE(says(problems, ":4:"));  // within what touches scatter
+  EXPECT_TRUE(says(refused(head + row + off + off), "exchanged?"));
+}
+
 TEST(MeasuredTable, RefusesEveryMistakeAtOnceWithItsLine) {
   const std::string all = refused(
       "design,load_N,humidity_percent,state,F_off_N\n"

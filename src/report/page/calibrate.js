@@ -37,7 +37,7 @@ function showParameters() {
   rowsChart('widths', parameters.map((p) => p.path), [Object.assign(set, { label: 'fitted, 95 % interval' }), prior], axis('prior widths from the prior', room([set], [-2, 2])));
   table($('values'), ['Parameter', 'Start', 'Fitted', '95 % interval', 'Prior', 'From the data [%]'], parameters.map((p) => [
     p.path, shown(p, p.start), shown(p, p.value), `${shown(p, p.low)}${p.low_open ? ' (bound)' : ''} to ${shown(p, p.high)}${p.high_open ? ' (bound)' : ''}`,
-    priorText(p), round(100 * p.data_share, 2) + (p.at_bound ? '; at its bound, interval by profile' : ''),
+    priorText(p), round(100 * p.data_share, 2) + (p.at_bound ? '; at its bound' + (p.low_open && p.high_open ? '' : ', interval by profile') : ''),
   ]), [1, 2, 3, 4, 5]);
 }
 
