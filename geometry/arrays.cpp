@@ -128,7 +128,7 @@ TextureFacts array_facts(FeatureArray array, const WallSection& wall) {
   const double share = array.deep ? feature_share(array) : 1 - feature_share(array);
   return {.relief = array.deep ? Relief::between(-wall.depth, 0) : Relief::between(0, wall.depth),
           .cell = relief ? std::optional(UnitCell{array.period, row}) : std::nullopt,
-          .free_patch = FreePatch{0, std::nullopt},
+          .free_patch = FreePatch{0, std::nullopt, false},
           .margins = relief ? array_margins(array, wall) : FabricationMargins::none(),
           .open_share = relief ? share : 0.0,
           .rim_radius = relief ? std::optional(wall.edge_radius) : std::nullopt,

@@ -67,6 +67,7 @@ struct UnitCell {
 struct FreePatch {
   double least;                 // a shorter one does not hold the texture
   std::optional<double> exact;  // the only one that there is
+  bool repeats;                 // the exact one is a period: more of them are the same surface
 
   double side(double wanted) const { return exact ? *exact : std::max(wanted, least); }
 };

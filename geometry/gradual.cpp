@@ -9,7 +9,7 @@ TextureFacts gradual_facts(const GradualProfile& p) {
   const bool relief = p.relief.present;
   return {.relief = p.relief,
           .cell = relief ? std::optional<UnitCell>(p.cell) : std::nullopt,
-          .free_patch = FreePatch{0, std::nullopt},
+          .free_patch = FreePatch{0, std::nullopt, false},
           .margins = relief ? FabricationMargins{p.hole, p.land, *p.relief.height() / smallest}
                             : FabricationMargins::none(),
           .open_share = relief ? static_cast<double>(p.open_share) : 0.0,

@@ -121,6 +121,31 @@ InputError wrong_key(const std::string& key, std::string message) {
   return InputError({Problem{{}, 0, 0, "texture." + key, std::move(message)}});
 }
 
+// A map that does not hold the patch is taken several times where it repeats.
+void require_large_enough(const std::string& file, const Grid& map, double patch, bool repeats) {
+  if (map.lx >= patch * (1 - 1e-9) && map.ly >= patch * (1 - 1e-9)) return;
+  if (repeats && whole_maps({map.nx, map.ny, patch, patch}, map)) return;
+  throw wrong_key(
+      "patch",
+      fmt::format("{}: {:.4g} x {:.4g} um is smaller than the patch of {:.4g} um{}; lower it", file,
+                  1e6 * map.lx, 1e6 * map.ly, 1e6 * patch,
+                  repeats ? ", which is no whole number of it" : ""));
+}
+
+// Of a few pixels a patch has no shape: most likely the map is in another unit of length.
+void require_fine_enough(const std::string& file, const Grid& map, double patch) {
+  if (!too_coarse(map, patch)) return;
+  const double pixel = std::max(map.dx(), map.dy());
+  throw wrong_key(
+      "patch",
+      fmt::format(
+          "{}: a pixel is {:.3g} um wide, of a map of {:.4g} x {:.4g} um: the patch of "
+          "{:.4g} um holds {:.2g} of them a side, and needs {:g}; give the scale of the map "
+          "(texture.width of an array, the sides in the file), or a map with finer pixels",
+          file, 1e6 * pixel, 1e6 * map.lx, 1e6 * map.ly, 1e6 * patch, patch / pixel,
+          kFewestPixels));
+}
+
 }  // namespace
 
 MapVersion map_version(const std::string& file) {
@@ -135,6 +160,10 @@ std::vector<MapVersion> map_versions(const Texture& texture) {
   std::vector<MapVersion> out;
   for (const ScanSource& source : known.scans) out.push_back(map_version(source.file));
   return out;
+}
+
+bool too_coarse(const Grid& map, double patch) {
+  return patch < (kFewestPixels - 1e-6) * std::max(map.dx(), map.dy());
 }
 
 ScanChanges changes_of_map(const ScanSource& source) { return scan_of(source)->changes; }
@@ -159,17 +188,14 @@ Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& a
                        const Grid& grid) {
   const auto scan = scan_of(source);
   const Grid& whole = scan->map.grid;
-  if (whole.lx < patch * (1 - 1e-9) || whole.ly < patch * (1 - 1e-9)) {
-    throw wrong_key("patch",
-                    fmt::format("{}: {:.4g} x {:.4g} um is smaller than the patch of {:.4g} um; "
-                                "lower it",
-                                source.file, 1e6 * whole.lx, 1e6 * whole.ly, 1e6 * patch));
-  }
-  // As a part of a stack it is asked for the sides of that.
+  const bool repeats = source.as_is || scan->changes.repeats;
+  require_large_enough(source.file, whole, patch, repeats);
+  require_fine_enough(source.file, whole, patch);
+  // As a part of a stack, or as one of several periods, it is asked for other sides.
   const auto other = [&](double side) { return std::abs(side / patch - 1) > 1e-9; };
-  const bool part = other(grid.lx) || other(grid.ly), repeats = scan->changes.repeats;
-  const bool larger = part && (grid.lx > whole.lx * (1 + 1e-9) || grid.ly > whole.ly * (1 + 1e-9));
-  const bool tiles = part && (source.as_is || (repeats && larger && whole_maps(grid, whole)));
+  const bool part = other(grid.lx) || other(grid.ly);
+  const bool larger = grid.lx > whole.lx * (1 + 1e-9) || grid.ly > whole.ly * (1 + 1e-9);
+  const bool tiles = (part && source.as_is) || (repeats && larger && whole_maps(grid, whole));
   if (larger && !tiles) {
     throw InputError(fmt::format(
         "{}: {:.4g} x {:.4g} um is smaller than the {:.4g} x {:.4g} um of the stack that it is a "
@@ -177,8 +203,8 @@ Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& a
         source.file, 1e6 * whole.lx, 1e6 * whole.ly, 1e6 * grid.lx, 1e6 * grid.ly,
         repeats ? ", and they are no whole number of it" : ""));
   }
-  const double side_x = tiles ? patch : std::max(patch, grid.lx),
-               side_y = tiles ? patch : std::max(patch, grid.ly);
+  const double side_x = tiles ? std::min(patch, whole.lx) : std::max(patch, grid.lx),
+               side_y = tiles ? std::min(patch, whole.ly) : std::max(patch, grid.ly);
   const double beyond = std::max(std::abs(at.x) - 0.5 * (whole.lx - side_x),
                                  std::abs(at.y) - 0.5 * (whole.ly - side_y));
   if (beyond > 1e-9 * patch) {
@@ -192,9 +218,10 @@ Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& a
   if (source.as_is && same_pixels(grid, whole)) return {grid, scan->map.z};  // to the last bit
   if (tiles) {
     if (at != MapPlace{}) {
-      throw wrong_key("at_x, at_y", source.file +
-                                        ": a map that repeats by itself begins at its corner as a "
-                                        "part of a stack; leave them out");
+      throw wrong_key("at_x, at_y",
+                      source.file +
+                          ": a map that repeats by itself begins at its corner, in a stack "
+                          "and where it is taken several times; leave them out");
     }
     return periodic_cut(scan->map, grid, 0, 0, 0, 0, {}, Border::Repeats);
   }

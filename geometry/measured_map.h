@@ -33,11 +33,17 @@ struct MapPlace {
   bool operator==(const MapPlace&) const = default;
 };
 
+// Of fewer along its side a patch has no shape.
+inline constexpr double kFewestPixels = 8;
+// Whether a patch [m] holds too few pixels of such a map.
+bool too_coarse(const Grid& map, double patch);
+
 // The map of the file, levelled, mended and made periodic, resampled on the grid: cut at a place.
-// One that repeats by itself and is asked for other sides than its patch, as a part of a stack,
-// begins at its corner, as textures do, and is taken as often as it takes. Throws InputError for a
-// map smaller than `patch` [m], for a larger grid that is no whole number of it, and for a place
-// where the patch reaches beyond it.
+// One that repeats by itself and is asked for other sides than its patch, as a part of a stack or
+// as one of several periods, begins at its corner, as textures do, and is taken as often as it
+// takes. Throws InputError for a map smaller than `patch` [m] that does not repeat to it, for one
+// of which it holds fewer than kFewestPixels a side, for a larger grid that is no whole number of
+// it, and for a place where the patch reaches beyond it.
 Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& at,
                        const Grid& grid);
 

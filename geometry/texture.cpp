@@ -103,9 +103,12 @@ Grid patch_grid(const Texture& texture, int pixels, double target) {
 
 Grid simulated_patch(const Texture& texture, int pixels, int most) {
   const TextureFacts known = facts(texture);
+  const FreePatch& free = known.free_patch;
+  std::optional<UnitCell> repeated = known.cell;
+  if (!repeated && free.exact && free.repeats) repeated = UnitCell{*free.exact, *free.exact};
   double lx, ly;
-  if (known.cell) {
-    const UnitCell& cell = *known.cell;
+  if (repeated) {
+    const UnitCell& cell = *repeated;
     // A patch twice too long counts as much as one of half or twice the area.
     double least = kInfinity;
     lx = cell.x;
@@ -124,7 +127,7 @@ Grid simulated_patch(const Texture& texture, int pixels, int most) {
       }
     }
   } else {
-    lx = ly = known.free_patch.side(kWindow);
+    lx = ly = free.side(kWindow);
   }
   const double pixel = std::max(kWindow / pixels, std::max(lx, ly) / most);
   return {even_count(lx / pixel), even_count(ly / pixel), lx, ly};

@@ -52,7 +52,8 @@ Grid patch_grid(const Texture& texture, int pixels, double target = kWindow);
 // The patch that is simulated: whole periods on both sides, its area as near as can be to that of
 // the window and not much longer than wide, sampled no coarser than window / pixels (to at
 // most `most` pixels a side), so that designs of different period are compared on like patches at
-// like resolution. Without relief there is no period: every flat texture has the same patch.
+// like resolution. Without relief there is no period: every flat texture has the same patch. A map
+// that repeats by itself is a period.
 // Half of both numbers is twice the pixel on any patch. Eq. geometry.2
 Grid simulated_patch(const Texture& texture, int pixels, int most = 1024);
 

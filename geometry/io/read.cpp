@@ -67,10 +67,6 @@ MapName map_name(const std::string& name) {
 MapAnswer read_map(const std::string& name, double width, NotNumbers not_numbers) {
   const auto [path, channel] = map_name(name);
   const std::string ending = lower_ending(path);
-  if (ending == ".png")
-    throw InputError("cannot read " + path +
-                     ": a picture holds no heights; use .npy, .gsf, .exr, .tif, .x3p, .gwy, .sur "
-                     "or .sdf");
   const auto rows = open_height_rows(path, false, channel);
   if (ending == ".npy" && !(width > 0)) {
     throw InputError("cannot read " + path +

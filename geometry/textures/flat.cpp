@@ -13,7 +13,7 @@ TextureProblems problems(const Flat&) { return {}; }
 TextureFacts facts(const Flat&) {
   return {.relief = Relief::between(0, 0),
           .cell = std::nullopt,
-          .free_patch = FreePatch{0, std::nullopt},
+          .free_patch = FreePatch{0, std::nullopt, false},
           .margins = FabricationMargins::none(),
           .open_share = 0.0,
           .rim_radius = std::nullopt,

@@ -8,7 +8,7 @@ TextureFacts gaussian_facts(double rms, const std::string& what, std::vector<Rou
                             bool quick_look) {
   return {.relief = Relief{rms > 0, std::nullopt},
           .cell = std::nullopt,
-          .free_patch = FreePatch{0, std::nullopt},
+          .free_patch = FreePatch{0, std::nullopt, false},
           .margins = FabricationMargins::none(),
           .open_share = std::nullopt,
           .rim_radius = std::nullopt,

@@ -55,7 +55,7 @@ TextureProblems problems(const Measured3d& t) {
 TextureFacts facts(const Measured3d& t) {
   return {.relief = Relief{true, std::nullopt},
           .cell = std::nullopt,
-          .free_patch = FreePatch{0, t.patch},
+          .free_patch = FreePatch{0, t.patch, t.as_is},
           .margins = FabricationMargins::none(),
           .open_share = std::nullopt,
           .rim_radius = std::nullopt,

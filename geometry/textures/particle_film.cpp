@@ -169,7 +169,7 @@ TextureFacts facts(const ParticleFilm& t) {
   const double top = t.coverage > 0 ? 2 * t.radius * (1 - t.embedding) : 0;
   return {.relief = Relief::between(0, top),
           .cell = std::nullopt,
-          .free_patch = FreePatch{8 * t.radius, std::nullopt},
+          .free_patch = FreePatch{8 * t.radius, std::nullopt, false},
           .margins = FabricationMargins::none(),
           .open_share = std::nullopt,
           .rim_radius = std::nullopt,

@@ -49,11 +49,13 @@ std::optional<UnitCell> cell_of(const std::vector<TextureFacts>& parts) {
 }
 
 FreePatch patch_of(const std::vector<TextureFacts>& parts) {
-  FreePatch out{0, std::nullopt};
+  FreePatch out{0, std::nullopt, false};
   for (const TextureFacts& part : parts) {
     const FreePatch& patch = part.free_patch;
     out.least = std::max(out.least, patch.least);
-    if (patch.exact) out.exact = out.exact ? std::min(*out.exact, *patch.exact) : *patch.exact;
+    if (!patch.exact) continue;
+    out.repeats = patch.repeats && (out.repeats || !out.exact);
+    out.exact = out.exact ? std::min(*out.exact, *patch.exact) : *patch.exact;
   }
   return out;
 }

@@ -57,9 +57,10 @@ class Design {
 
   // Heights as they are drawn, or measured, as the texture: square, with square pixels, high
   // touches first; all else by `values`. `repeats`: they repeat by themselves and are taken as they
-  // are, but for their zero: the highest place is the untouched land; else they are levelled,
-  // mended and made periodic, as scans are. They lie in a file that toml() names and that is there
-  // for as long as a design of them. Throws InputError.
+  // are, but for their zero: the highest place is the untouched land; one period is enough, and is
+  // pressed as often side by side as textures of that period are. Else they are levelled, mended
+  // and made periodic, as scans are, and refused below 3 um. They lie in a file that toml() names
+  // and that is there for as long as a design of them. Throws InputError.
   static Design from_heights(const Heights& heights, const Values& values = {},
                              bool repeats = true);
   // The toml() of such a design, in another process or at another time.
@@ -67,7 +68,8 @@ class Design {
 
   // The design with other values. It is read anew, all values together, so that those which go
   // together (a diameter and its period) are given in one call. Of another kind ("texture.type")
-  // it has what is given here alone.
+  // it has what is given here alone. Its title says what was changed, unless it is given; a design
+  // without a title stays without one.
   Design with(const Values& values) const;
   Design with(const std::string& path, const std::string& value) const;
 

@@ -69,7 +69,7 @@ class Judgement:
     values: FloatArray
     """One per objective; larger is better where it is maximised."""
     errors: FloatArray
-    """One standard error of each."""
+    """One standard error of each: the scatter, not what the level of searches is off by."""
     violations: FloatArray
     """One per constraint that needs an evaluation; above 0: broken, relative to its limit."""
 
@@ -338,6 +338,9 @@ class Study:
     def judge(self, values: Values, *, threads: int = 0) -> Judgement:
         """The model on every finger and scenario, as accurately as a search: a second or less.
 
+        The numbers are for ranking designs: at the coarse level of searches friction lies about a fifth above that of
+        ``evaluate``. ``errors`` hold the scatter between skins, not that difference.
+
         values: by path (variables that are left out have the study's own values), or all in their order. A shape that breaks a limit is refused at once: ``ok`` is False. Raises InputError, KeyboardInterrupt.
         """
         return _judgement(self._inside.judge(self._numbers(values), v.whole(threads, "threads", 0, 4096)))
@@ -411,6 +414,8 @@ class Study:
                  progress: Progress = None) -> Run:
         """Searches, confirms and checks, and writes the folder of results: ``papilla optimize``.
 
+        How long and from where is the study's: ``Study.load(file, {"search.evaluations": 60, "search.time": "20 min",
+        "search.seed": 2})``.
         out: the folder. resume: go on with an interrupted run there. finish: and ask for no more designs: those of
         the run are judged and confirmed. pick: which design of the front is the best.
         progress: called with (stage, done, total, seconds left; below 0: not known). Ctrl-C ends it: what was

@@ -128,6 +128,18 @@ def test_a_drawn_design_is_saved_with_its_array(tmp_path: pathlib.Path) -> None:
     assert np.array_equal(pp.Design.load(tmp_path / "drawn.toml").heights(96).z, z - z.max())
 
 
+def test_a_map_that_repeats_is_pressed_on_a_patch_as_long_as_others() -> None:
+    values = {"base": "m3_samples/flat.toml", **QUICK}
+    flat = pp.Design(values).evaluate().friction_off.value[0]
+    for size, n in (("1 um", 8), ("6 um", 16)):
+        mine = pp.Design.from_heights(np.zeros((n, n)), size, values).evaluate().friction_off.value[0]
+        assert mine == pytest.approx(flat, rel=0.01), size
+    with pytest.raises(pp.InputError, match="^size: the width of the map: 1 um is shorter than the waves of skin"):
+        pp.Design.from_heights(np.zeros((8, 8)), "1 um", values, repeats=False)
+    with pytest.raises(pp.InputError, match="^size: the width of the map: 6000000 um is outside"):
+        pp.Design.from_heights(np.zeros((8, 8)), 6, values)
+
+
 def test_a_drawn_hole_array_is_evaluated_as_the_kind_is() -> None:
     holes = pp.Design.load(ROOT / "designs/m3_samples/a3h350.toml", QUICK)
     patch = holes.heights(64)

@@ -11,15 +11,20 @@
 #include "config/describe.h"
 #include "config/node.h"
 #include "config/reader.h"
+#include "design/title.h"
 
 namespace papilla::api {
 namespace {
 
+void read_study_of(Design::Inside& inside) {
+  const std::vector<std::string> changes = overrides(inside.values);
+  inside.study = inside.file.empty() ? parse_study(inside.text, "design.toml", changes)
+                                     : read_study(inside.file, changes);
+}
+
 std::shared_ptr<const Design::Inside> loaded(Design::Inside inside) {
   return across([&] {
-    const std::vector<std::string> changes = overrides(inside.values);
-    inside.study = inside.file.empty() ? parse_study(inside.text, "design.toml", changes)
-                                       : read_study(inside.file, changes);
+    read_study_of(inside);
     return std::make_shared<const Design::Inside>(std::move(inside));
   });
 }
@@ -64,6 +69,26 @@ void drop_of_other_kinds(const Design::Inside& before, const Design::Values& val
   };
   if (changed.drawn && std::none_of(changed.values.begin(), changed.values.end(), names_map))
     changed.drawn = nullptr;
+}
+
+// What is wrong with the sides of drawn heights is said of them, and once: the caller knows no
+// texture.width, nor texture.patch where it gave none.
+std::vector<Problem> told_of_size(const std::vector<Problem>& problems,
+                                  const Design::Values& given) {
+  std::vector<Problem> out;
+  bool said = false;
+  for (const Problem& p : problems) {
+    const auto gave_it = [&](const auto& value) { return path_of(value) == p.key; };
+    const bool of_size = (p.key == "texture.width" || p.key == "texture.patch") &&
+                         std::none_of(given.begin(), given.end(), gave_it);
+    if (!of_size) {
+      out.push_back(p);
+    } else if (!said) {
+      out.push_back({"", 0, 0, "size", "the width of the map: " + p.message});
+      said = true;
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -121,7 +146,11 @@ Design Design::from_heights(const Heights& heights, const Values& values, bool r
                      {"texture.patch:", width},
                      {"texture.as_is", repeats ? "true" : "false"}};
     inside.values.insert(inside.values.end(), values.begin(), values.end());
-    return Design(loaded(std::move(inside)));
+    try {
+      return Design(loaded(std::move(inside)));
+    } catch (const InputError& error) {
+      throw InputError(told_of_size(error.problems(), values));
+    }
   });
 }
 
@@ -140,7 +169,13 @@ Design Design::with(const Values& values) const {
     Inside changed{inside_->file, inside_->text, inside_->values, inside_->drawn, {}};
     drop_of_other_kinds(*inside_, values, changed);
     changed.values.insert(changed.values.end(), values.begin(), values.end());
-    return Design(loaded(std::move(changed)));
+    read_study_of(changed);
+    const std::string title = title_as_set(changed.study.design, overrides(values));
+    if (title != changed.study.design.title) {
+      changed.values.emplace_back("title", toml_string(title));
+      read_study_of(changed);
+    }
+    return Design(std::make_shared<const Inside>(std::move(changed)));
   });
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/error.h"
@@ -30,21 +31,39 @@ void add_scans(const Texture& texture, const std::string& section, std::vector<N
 }  // namespace
 
 std::string text(const DesignScan& scan) {
+  constexpr double kWidestPixel = 0.5e-6, kShortPatch = 6e-6;  // [m]
   const ScanChanges& c = scan.changes;
   std::string out = geometry::text(scan.file, c);
   const UnitCell sides = scan.periods.value_or(UnitCell{scan.taken, scan.taken});
   if (scan.taken > 0 && (sides.x < (1 - 1e-9) * c.width || sides.y < (1 - 1e-9) * c.height)) {
     const std::string part =
-        scan.periods ? fmt::format(
-                           "the simulated patch of {:.4g} x {:.4g} um, whole periods of the stack, "
-                           "is the texture{}",
-                           1e6 * sides.x, 1e6 * sides.y,
-                           c.as_is ? "" : fmt::format(" ({}.at_x, at_y)", scan.section))
+        scan.periods ? fmt::format("the simulated patch of {:.4g} x {:.4g} um{} is the texture{}",
+                                   1e6 * sides.x, 1e6 * sides.y,
+                                   scan.section == "texture" ? "" : ", whole periods of the stack,",
+                                   c.as_is ? "" : fmt::format(" ({}.at_x, at_y)", scan.section))
                      : fmt::format("a square of {:.4g} um is the texture ({}.patch, at_x, at_y)",
                                    1e6 * scan.taken, scan.section);
     out += fmt::format(
         "; of its {:.4g} x {:.4g} um {}{}", 1e6 * c.width, 1e6 * c.height, part,
         c.as_is ? "" : ", blended along two borders with what lies beyond, so that it repeats");
+  } else if (sides.x > (1 + 1e-9) * c.width || sides.y > (1 + 1e-9) * c.height) {
+    out += fmt::format("; repeated, it makes the simulated patch of {:.4g} x {:.4g} um",
+                       1e6 * sides.x, 1e6 * sides.y);
+  }
+  const double shorter = std::min(sides.x, sides.y);
+  if (shorter > 0 && shorter < (1 - 1e-9) * kShortPatch) {
+    out += fmt::format(
+        "; its patch of {:.4g} um is shorter than the waves of skin, and friction comes out too "
+        "high: take {:g} um or more, or say as_is = true of a map that repeats by itself",
+        1e6 * shorter, 1e6 * kShortPatch);
+  }
+  const double pixel =
+      c.pixels > 0 ? std::sqrt(c.width * c.height / static_cast<double>(c.pixels)) : 0;
+  if (scan.taken > 0 && pixel > kWidestPixel) {
+    out += fmt::format(
+        "; its pixels are {:.3g} um wide: of waves shorter than {:.3g} um, which friction rests "
+        "on, nothing is in it; is its width of {:.4g} um right?",
+        1e6 * pixel, 2e6 * pixel, 1e6 * c.width);
   }
   return out;
 }
@@ -62,9 +81,10 @@ std::vector<DesignScan> scans_of(const Design& design) {
   const TextureFacts known = facts(design.texture);
   double taken = known.free_patch.exact.value_or(0);
   std::optional<UnitCell> periods;
-  if (known.cell && taken > 0) {
+  if (taken > 0) {
     const Grid patch = simulated_patch(design.texture, 16);  // its sides are the same on any pixels
-    periods = UnitCell{patch.lx, patch.ly};
+    if (known.cell || std::max(patch.lx, patch.ly) > (1 + 1e-9) * taken)
+      periods = UnitCell{patch.lx, patch.ly};
     taken = std::max(patch.lx, patch.ly);
   }
   std::vector<NamedScan> named;

@@ -17,8 +17,8 @@ struct DesignScan {
   ScanChanges changes;
   double taken = 0;                 // side of the square of the map that the texture is [m]
   std::string section = "texture";  // whose `patch`, `at_x` and `at_y` choose it: or a part's of it
-  // Sides of what is taken where they are whole periods of another part of a stack [m]; `taken` is
-  // the longer one.
+  // Sides of what is taken where they are whole periods, of another part of a stack or of the map
+  // itself [m]; `taken` is the longer one.
   std::optional<UnitCell> periods{};
 };
 

@@ -11,6 +11,7 @@
 #include "base/files.h"
 #include "config/writer.h"
 #include "fabricate/formats.h"
+#include "geometry/io/files.h"
 
 namespace papilla::fabricate {
 namespace {
@@ -108,6 +109,14 @@ class RecordReader {
   std::string folder_, path_;
 };
 
+// The names of the maps that a texture is made of, where they stand in it.
+void add_maps(Texture& texture, std::vector<std::string*>& out) {
+  if (auto* measured = std::get_if<Measured3d>(&texture.kind)) out.push_back(&measured->file);
+  if (std::vector<Texture>* parts = roles(texture).parts) {
+    for (Texture& part : *parts) add_maps(part, out);
+  }
+}
+
 }  // namespace
 
 std::optional<double> in_pixels(const Limited& on, const PixelMargins& pixels) {
@@ -122,6 +131,26 @@ std::optional<double> in_pixels(const Limited& on, const PixelMargins& pixels) {
       break;
   }
   return std::nullopt;
+}
+
+Design with_own_maps(const Design& design, const Folder& folder) {
+  Design out = design;
+  std::vector<std::string*> maps;
+  add_maps(out.texture, maps);
+  for (std::string* other : {&out.finger.skin.map, &out.counterface.pin.roughness.map,
+                             &out.counterface.pen.roughness.map})
+    maps.push_back(other);
+  std::erase_if(maps, [](const std::string* map) { return map->empty(); });
+  std::vector<std::pair<std::string, std::string>> copies;  // all read before any is written
+  for (std::string* map : maps) {
+    const MapName named = map_name(*map);
+    const std::string number = copies.empty() ? "" : fmt::format("_{}", copies.size() + 1);
+    copies.emplace_back("map" + number + std::filesystem::path(named.file).extension().string(),
+                        read_bytes(named.file));
+    *map = copies.back().first + (named.channel.empty() ? "" : "::" + named.channel);
+  }
+  for (const auto& [name, bytes] : copies) folder.write(name, bytes);
+  return out;
 }
 
 ExportRecord record_of(const Study& study, const ExportOptions& options, const Export& result) {

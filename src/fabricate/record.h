@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/folder.h"
 #include "base/rooms.h"
 #include "design/study.h"
 #include "fabricate/export.h"
@@ -26,6 +27,10 @@ struct ExportRecord {
 
 // What the pixels of a file show of a limit; nothing of one that they do not tell.
 std::optional<double> in_pixels(const Limited& on, const PixelMargins& pixels);
+
+// The design with the measured maps that it is made of copied into a folder, and named there: a
+// record that has it is read wherever the folder lies. Throws InputError.
+Design with_own_maps(const Design& design, const Folder& folder);
 
 ExportRecord record_of(const Study& study, const ExportOptions& options, const Export& result);
 

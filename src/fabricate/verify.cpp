@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include "base/constants.h"
@@ -15,6 +16,7 @@
 #include "fabricate/formats.h"
 #include "forward/forward.h"
 #include "geometry/io/files.h"
+#include "geometry/measured_map.h"
 #include "metrics/metrics.h"
 
 namespace papilla::fabricate {
@@ -213,6 +215,14 @@ Verification verify_export(const Study& study, const std::string& file, double t
   map.patch = repeats                     ? std::min(side, 0.999 * plan.grid.lx)
               : side < 1.5 * plan.grid.lx ? side
                                           : plan.grid.lx;
+  if (too_coarse(h.grid, map.patch)) {
+    out.file = out.loss = std::numeric_limits<double>::quiet_NaN();
+    out.faults.push_back(
+        fmt::format("a pixel of the file is {:.3g} um wide: the patch of {:.4g} um that is felt "
+                    "holds fewer than {:g} of them; export finer pixels",
+                    1e6 * std::max(h.grid.dx(), h.grid.dy()), 1e6 * map.patch, kFewestPixels));
+    return out;
+  }
   // What is exported repeats: nothing is to be levelled or mended, nor blended unless it is cut.
   map.as_is = repeats || map.patch == side;
   map.top = top_of(design.texture, h.grid);

@@ -140,7 +140,10 @@ Export export_with_record(const Study& study, const ExportOptions& options,
   const SoleWriter alone(place, "another export is writing");
   write_files(study.design, options, folder, progress, result);
   result.files.insert(result.files.end(), beside.begin(), beside.end());
-  place.write(kRecordName, record(study, options, result).dump(2) + "\n");
+  Study kept = study;
+  // The folder of a run has its design beside the files, which names the maps where they lie.
+  if (beside.empty()) kept.design = with_own_maps(study.design, place);
+  place.write(kRecordName, record(kept, options, result).dump(2) + "\n");
   return result;
 }
 

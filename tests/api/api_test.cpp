@@ -21,6 +21,18 @@ TEST(Library, ReadsTextAndTakesValuesWithUnits) {
   EXPECT_EQ(design.number("texture.depth"), 350e-9) << "the first is as before";
 }
 
+TEST(Library, TitleSaysWhatWasChanged) {
+  const papilla::Design design = papilla::Design::parse(kHoles);
+  ASSERT_FALSE(design.title().empty());
+  const papilla::Design shallow = design.with("texture.depth", "262 nm");
+  EXPECT_EQ(shallow.title(), design.title() + "; texture.depth 262 nm");
+  EXPECT_EQ(shallow.with({{"texture.depth:", "2e-07"}, {"accuracy.grid", "48"}}).title(),
+            design.title() + "; texture.depth 200 nm");
+  EXPECT_EQ(papilla::Design::parse(shallow.toml()).title(), shallow.title());
+  EXPECT_EQ(shallow.with("title", "\"mine\"").title(), "mine");
+  EXPECT_EQ(design.with("accuracy.grid", "48").title(), design.title());
+}
+
 TEST(Library, SaysEveryProblemWithItsPlace) {
   try {
     papilla::Design::parse(

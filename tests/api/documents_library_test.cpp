@@ -407,6 +407,22 @@ TEST(DesignOfTheLibrary, IsDrawnOnSquarePixelsOfASquare) {
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
+// Of the caller's argument, once: it knows no key of the texture.
+TEST(DesignOfTheLibrary, NamesTheSizeOfHeightsThatHaveAnotherOne) {
+  const auto said = [](double width, bool repeats, const papilla::Design::Values& values) {
+    const papilla::Heights h{8, 8, width / 8, width / 8, std::vector<double>(64, 0.0)};
+    return refusal([&] { papilla::Design::from_heights(h, values, repeats); });
+  };
+  EXPECT_EQ(said(6, true, {}), "size: the width of the map: 6000000 um is outside 0.1 to 10000 um");
+  EXPECT_EQ(said(2e-6, true, {}), "");
+  EXPECT_TRUE(said(2e-6, false, {}).starts_with("size: the width of the map: 2 um is shorter"))
+      << said(2e-6, false, {});
+  EXPECT_TRUE(
+      said(6e-6, false, {{"texture.patch", "2 um"}}).find("texture.patch: 2 um is shorter") !=
+      std::string::npos)
+      << said(6e-6, false, {{"texture.patch", "2 um"}});
+}
+
 constexpr const char* kStudy =
     "schema_version = 1\nbase = \"m3_samples/a3h350.toml\"\n"
     "[design_space]\n\"texture.depth\" = [\"100 nm\", \"500 nm\"]\n"
@@ -591,6 +607,28 @@ TEST(FilesOfTheLibrary, AreWrittenAndJudgedAgain) {
   EXPECT_FALSE(felt.sound());
   felt.verdict.faults.clear();
   EXPECT_TRUE(felt.sound());
+}
+
+// The heights of a design from an array lie in a file that goes with the design.
+TEST(FilesOfTheLibrary, OfDrawnHeightsAreJudgedWithoutTheDesign) {
+  const std::string made = papilla::tests::temporary("drawn_made"),
+                    folder = papilla::tests::temporary("drawn_moved");
+  std::filesystem::remove_all(made);
+  std::filesystem::remove_all(folder);
+  papilla::ExportOptions options;
+  options.formats = {"npy", "gsf"}, options.pixels = 32;
+  {
+    papilla::Heights h{16, 16, 0.75e-6, 0.75e-6, std::vector<double>(256, 0.0)};
+    for (std::size_t i = 0; i < h.z.size(); i += 5) h.z[i] = -1e-7;
+    const papilla::Design design =
+        papilla::Design::from_heights(h, {{"base", "m3_samples/flat.toml"}});
+    papilla::export_files(design, made, options);
+  }
+  std::filesystem::rename(made, folder);
+  const auto verdicts = papilla::verify(folder, {.geometry = true});
+  ASSERT_EQ(verdicts.size(), 1u);
+  EXPECT_EQ(verdicts[0].files.size(), 2u);
+  EXPECT_TRUE(verdicts[0].sound());
 }
 
 TEST(RankingOfTheLibrary, IsItsDocumentInNumbers) {

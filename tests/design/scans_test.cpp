@@ -77,5 +77,54 @@ TEST(DesignScans, OfAMapBesidePeriodicPartsSayThePatchThatIsSimulated) {
   EXPECT_EQ(said.find("a square of"), std::string::npos) << said;
 }
 
+// What makes another surface of a map without a word of its file: a wrong scale, a short patch.
+TEST(DesignScans, SayAPixelTooWideAndAPatchTooShortForFriction) {
+  const auto said = [](double width, double taken) {
+    DesignScan scan{"a.npy", {}, taken};
+    scan.changes.width = scan.changes.height = width;
+    scan.changes.pixels = 256 * 256;
+    return text(scan);
+  };
+  EXPECT_NE(said(400e-6, 12e-6)
+                .find("; its pixels are 1.56 um wide: of waves shorter than 3.12 um, which "
+                      "friction rests on, nothing is in it; is its width of 400 um right?"),
+            std::string::npos)
+      << said(400e-6, 12e-6);
+  EXPECT_EQ(said(100e-6, 12e-6).find("its pixels"), std::string::npos);
+  EXPECT_EQ(said(400e-6, 0).find("its pixels"), std::string::npos);  // of a skin
+  EXPECT_NE(said(4e-6, 4e-6).find("; its patch of 4 um is shorter than the waves of skin"),
+            std::string::npos)
+      << said(4e-6, 4e-6);
+  EXPECT_EQ(said(6e-6, 6e-6).find("its patch"), std::string::npos);
+  EXPECT_EQ(said(6e-6, 0).find("its patch"), std::string::npos);
+}
+
+TEST(DesignScans, OfAMapThatIsRepeatedSayThePatchThatItMakes) {
+  DesignScan scan{"a.npy", {}, 12e-6, "texture", UnitCell{12e-6, 12e-6}};
+  scan.changes.width = scan.changes.height = 2e-6;
+  scan.changes.as_is = true;
+  EXPECT_EQ(text(scan),
+            "a.npy: taken as it is, neither levelled nor mended; repeated, it makes the simulated "
+            "patch of 12 x 12 um");
+}
+
+// On a patch that is shorter than the waves of skin friction is that of another finger.
+TEST(DesignProblems, RefuseAPatchOfAMapTooShortForSkin) {
+  const auto refused = [](double patch, bool as_is) {
+    Measured3d map;
+    map.file = "a.npy", map.patch = patch, map.as_is = as_is;
+    Design design;
+    design.texture = Texture{map};
+    for (const DesignProblem& p : design_problems(design)) {
+      if (p.path == "texture.patch") return p.message;
+    }
+    return std::string();
+  };
+  EXPECT_TRUE(refused(2e-6, false).starts_with("2 um is shorter than the waves of skin"))
+      << refused(2e-6, false);
+  EXPECT_EQ(refused(2e-6, true), "");  // repeated
+  EXPECT_EQ(refused(3e-6, false), "");
+}
+
 }  // namespace
 }  // namespace papilla::tests::scans_test

@@ -88,6 +88,26 @@ TEST(SimulatedPatch, HasTheCellsThatAreMostLikeTheWindow) {
   expect_grid(simulated_patch(square(24e-6), 128, 512), 256, 256, 24e-6, 24e-6, "of one cell");
 }
 
+// Holes and a map of one period of them are compared on the same patch. Of a map that does not
+// repeat there is one square.
+TEST(SimulatedPatch, OfAMapThatRepeatsIsThatOfAPeriod) {
+  for (const double period : {0.5e-6, 1e-6, 3e-6, 5e-6, 6e-6, 7e-6, 9e-6, 10e-6, 12e-6, 20e-6}) {
+    Measured3d map;
+    map.file = "a.npy", map.patch = period;
+    expect_grid(simulated_patch({map}, 128), simulated_patch({map}, 128).nx,
+                simulated_patch({map}, 128).ny, period, period, "one square");
+    map.as_is = true;
+    EXPECT_EQ(simulated_patch({map}, 128), simulated_patch(square(period), 128)) << period;
+    Stack stack;  // as a part beside roughness, which has no sides of its own
+    stack.parts = {Texture{RandomRough{}}, Texture{map}};
+    EXPECT_EQ(simulated_patch({stack}, 128), simulated_patch(square(period), 128)) << period;
+    EXPECT_EQ(patch_grid({map}, 32).lx, period) << "drawn and exported once";
+    map.as_is = false;
+    stack.parts.push_back(Texture{map});
+    EXPECT_NEAR(simulated_patch({stack}, 128).lx, period, 1e-15) << "not all of it repeats";
+  }
+}
+
 // The autocorrelation of a map asks for a hundred bytes a pixel.
 TEST(Areal, OfAMapThatTheMemoryDoesNotHoldIsRefused) {
   if (!kAddressesAreFree) GTEST_SKIP() << "the sanitizer has the addresses";

@@ -323,6 +323,52 @@ TEST(MiddleOfAMap, OneThatRepeatsIsTiledOverOtherSides) {
       std::string::npos);
 }
 
+// Without a word the patch is 12 um: a map that repeats is taken twice each way, whole.
+TEST(MiddleOfAMap, OneThatRepeatsIsTakenAsOftenAsThePatchIsLong) {
+  const auto lattice = [](double x, double y) {
+    return 40e-9 * std::sin(2 * kPi * x / 6e-6) + 30e-9 * std::cos(2 * kPi * y / 3e-6);
+  };
+  const std::string file = temporary("twice.gsf");
+  write_gsf(file, map_of({60, 60, 6e-6, 6e-6}, lattice), {});
+  const Grid patch{120, 120, 12e-6, 12e-6};
+  for (const bool as_is : {true, false}) {
+    const Heightmap h = patch_of_map({file, 0, false, as_is}, 12e-6, {}, patch);
+    for (int iy = 0; iy < patch.ny; ++iy) {
+      for (int ix = 0; ix < patch.nx; ++ix)
+        ASSERT_NEAR(h(ix, iy), lattice(patch.x(ix), patch.y(iy)), 1e-14) << ix << " " << iy;
+    }
+  }
+  const ScanSource source{file, 0, false, true};
+  EXPECT_EQ(refusal_of([&] {
+              patch_of_map(source, 13e-6, {}, {130, 130, 13e-6, 13e-6});
+            }),
+            "texture.patch: " + file +
+                ": 6 x 6 um is smaller than the patch of 13 um, which is no whole number of it; "
+                "lower it");
+  EXPECT_NE(refusal_of([&] {
+              patch_of_map(source, 12e-6, {1e-6, 0}, patch);
+            }).find("at_x, at_y"),
+            std::string::npos);
+}
+
+// A width of 20 mm where um were meant: the patch lies within one pixel.
+TEST(MiddleOfAMap, OneOfPixelsTooWideForThePatchIsRefused) {
+  const std::string file = temporary("wide.npy");
+  Heightmap h{{96, 96, 1e-3, 1e-3}, std::vector<double>(96 * 96, 0)};
+  for (std::size_t i = 0; i < h.z.size(); i += 7) h.z[i] = 1e-8;
+  write_npy(file, h);
+  const auto refused = [&](double width) {
+    return refusal_of([&] { patch_of_map({file, width}, 12e-6, {}, {32, 32, 12e-6, 12e-6}); });
+  };
+  EXPECT_EQ(refused(8 * 12e-6 * 1.5), "");  // 8 pixels of 1.5 um
+  EXPECT_EQ(refused(19.2e-3),
+            "texture.patch: " + file +
+                ": a pixel is 200 um wide, of a map of 1.92e+04 x 1.92e+04 um: the patch of 12 um "
+                "holds 0.06 of them a side, and needs 8; give the scale of the map (texture.width "
+                "of an array, the sides in the file), or a map with finer pixels");
+  EXPECT_NE(refused(0.15e-3), "");
+}
+
 // In a stack of a longer period the sides are those of the stack: what the map does not hold is
 // not made up.
 TEST(MiddleOfAMap, OneThatIsSmallerThanItsStackIsRefused) {
@@ -425,7 +471,9 @@ TEST(MeasuredMap, OneThatIsTooSmallIsRefusedWithItsSides) {
   };
   EXPECT_EQ(middle(9e-6), "");
   EXPECT_EQ(middle(9.1e-6),
-            "texture.patch: " + file + ": 20 x 9 um is smaller than the patch of 9.1 um; lower it");
+            "texture.patch: " + file +
+                ": 20 x 9 um is smaller than the patch of 9.1 um, which is no whole number of it; "
+                "lower it");
   // As skin it needs a tenth more on either side, for the seam.
   const auto skin = [&](double lx, double ly) {
     return refusal_of([&] { measured_skin(file, 0, {32, 32, lx, ly}, 1, 0); });
@@ -450,7 +498,8 @@ TEST(MeasuredMap, WhatIsWrongWithItAsAPartIsSaidByTheKeyOfThePart) {
     return refusal_of([&] { generate(Texture{outer}, {32, 32, side, side}); });
   };
   EXPECT_EQ(refused(9.1e-6), "texture.parts.0.parts.1.patch: " + file +
-                                 ": 20 x 9 um is smaller than the patch of 9.1 um; lower it");
+                                 ": 20 x 9 um is smaller than the patch of 9.1 um, which is no "
+                                 "whole number of it; lower it");
   map.patch = 8e-6, map.at_x = 7e-6;
   EXPECT_TRUE(refused(8e-6).starts_with(
       "texture.parts.0.parts.1.at_x, at_y: the patch of 8 x 8 um round (7, 0) um reaches 1 um "))

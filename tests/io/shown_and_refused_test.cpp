@@ -86,7 +86,7 @@ TEST(ShownFields, HaveTheColoursOfTheirShares) {
     EXPECT_EQ(field_colour(share), colour) << share;
 }
 
-TEST(ReadHeights, OfPicturesAndArchivesAreForOtherCommands) {
+TEST(ReadHeights, OfPicturesAndArchivesAreThoseThatSayTheirScale) {
   const Heightmap h{{4, 3, 4e-6, 3e-6},
                     {1e-9, 2e-9, 3e-9, 4e-9, 5e-9, 6e-9, 7e-9, 8e-9, 9e-9, 1e-8, 1.1e-8, 1.2e-8}};
   const auto refusal = [](const std::string& path) -> std::string {
@@ -99,11 +99,19 @@ TEST(ReadHeights, OfPicturesAndArchivesAreForOtherCommands) {
   write_gsf(gsf, h, {});
   write_bytes(other, "no map of anything");
   write_gsf(upper, h, {});
-  for (const std::string& path : {png, upper}) {
-    EXPECT_EQ(refusal(path), "cannot read " + path +
-                                 ": a picture holds no heights; use .npy, .gsf, .exr, .tif, .x3p, "
-                                 ".gwy, .sur or .sdf");
-  }
+  EXPECT_TRUE(refusal(upper).starts_with("cannot read " + upper)) << refusal(upper);
+  const std::string shown = temporary("shown.png");
+  write_png(shown, h);  // colours
+  EXPECT_EQ(refusal(shown),
+            "cannot read " + shown +
+                ": an integer image without its height scale; use a float image, .gsf or .npy");
+  // To half a level of grey, as high as it was.
+  const Heightmap back = read_heightmap(png);
+  EXPECT_NEAR(back.grid.lx, 4e-6, 1e-15);
+  EXPECT_NEAR(back.grid.ly, 3e-6, 1e-15);
+  ASSERT_EQ(back.z.size(), h.z.size());
+  for (std::size_t i = 0; i < h.z.size(); ++i)
+    EXPECT_NEAR(back.z[i], h.z[i], 0.51 * 11e-9 / 65535 + 1e-15) << i;
   // By Gwyddion, where it is there: it finds none.
   EXPECT_NE(refusal(other).find(".x3p"), std::string::npos);
   EXPECT_EQ(refusal(gsf), "");
