@@ -64,6 +64,8 @@ class Batch:
         self.regret_after: float = plan["regret_after"]
         self.p_change: float = plan["p_change"]
         """That another design is chosen after the batch."""
+        self.keeps_limits: bool | None = document["standing"].get("keeps_limits")
+        """Whether the best design keeps every limit as surely as is wanted, which ``stop`` does not say; None: no decision."""
         self.experiments: list[Experiment] = [
             Experiment(e["id"], e["design"], e["field"], e["conditions"]["load"], e["conditions"]["relative_humidity"],
                        e["conditions"]["voltage"], e["conditions"]["frequency"], e["conditions"]["state"], e["repeats"],

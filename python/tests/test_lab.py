@@ -30,6 +30,7 @@ def lab(tmp_path_factory: pytest.TempPathFactory) -> pp.Lab:
 def test_a_lab_plans_a_batch_with_expectations(lab: pp.Lab) -> None:
     assert lab.batch is not None
     assert lab.batch.purpose == "decision"
+    assert lab.batch.keeps_limits is True  # designs of files have no limits
     for e in lab.batch.experiments:
         assert e.design in ("deep", "shallow")
         assert e.humidity == 0.35

@@ -91,17 +91,20 @@ void add_next(Command app, Context& context) {
       command.add_option("--humidity", source.humidity,
                          "Humidities that can be set, \"15 %,75 %\""),
       command.add_option("--voltage", source.voltage, "Peak voltages, \"0 V,100 V\""),
-      command.add_option("--frequency", source.frequency, "Of the carrier"),
+      command.add_option("--frequency", source.frequency,
+                         "Frequencies of the carrier that can be set, \"5 kHz\""),
       command.add_option("--state", source.states, "States of the finger, \"clean,natural\""),
       command
           .add_option("--set", source.values,
                       "Value of a new lab.toml, \"instrument.repeatability=2 %\"")
           .type_name("KEY=VALUE")
           .repeatable(),
-      command.add_option("--finger", options->run.options.finger, "Who will be measured")
+      command.add_option("--finger", options->run.options.finger, "Whose finger will be measured")
           .show_default(),
-      command.add_option("--day", options->run.options.day, "When; else the date"),
-      command.add_option("--date", options->run.options.date, "Of today, for the journal")};
+      command.add_option("--day", options->run.options.day,
+                         "Day of the measurements; else the date"),
+      command.add_option("--date", options->run.options.date,
+                         "Date that the journal says; else today")};
   command.add_option("--jobs", options->run.threads, "Threads; 0: all processors").range(0, 4096);
   command.add_flag("--show", options->show, "Where a lab stands, without planning");
   command.add_flag("--json", options->json, "One JSON object on standard output");
@@ -121,7 +124,9 @@ void add_next(Command app, Context& context) {
         {"LAB/plan_NN.csv", "a batch as a table to fill in"},
         {"LAB/lab.md, lab.json, decisions.svg", "where the decision stands"},
         {"LAB/belief.toml", "the members with their weights now"},
-        {"LAB/lab.journal", "what counts; the other files are made from it again"}}});
+        {"LAB/lab.journal", "what counts; the other files are made from it again"},
+        {"LAB/unfinished-*.journal",
+         "what the model has answered; without it it is asked again"}}});
   command.on_chosen([&context, options] {
     context.action = [&context, options] { return plan_next(context, *options); };
   });

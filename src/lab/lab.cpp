@@ -155,7 +155,8 @@ std::vector<ToldReading> in_force(const std::vector<JournalEntry>& entries) {
   return out;
 }
 
-// What was told, by key and by identity. Both also as of no day: one that says none is sought so.
+// What was told, by key and by identity. Both are entered a second time without the day, to be
+// found by a reading that does not say its day.
 struct ToldBefore {
   std::map<std::string, ToldReading> by_key;
   std::multimap<std::string, ToldReading> by_identity;
@@ -244,6 +245,7 @@ const std::vector<MemberNumbers>& Lab::worth() {
     for (const std::size_t i : rows) {
       worth_.push_back({run.worth[i], 0, {"of the run", run.by_skin[i]}});
       kept_.push_back(run.kept[i]);
+      run_limits_.push_back(run.limits[i]);
     }
     return worth_;
   }
@@ -271,6 +273,11 @@ void Lab::stand() {
 const Standing& Lab::standing() {
   if (!standing_) stand();
   return *standing_;
+}
+
+const std::vector<RunLimit>& Lab::run_limits(std::size_t choice) const {
+  static const std::vector<RunLimit> kNone;
+  return run_limits_.empty() ? kNone : run_limits_[choice];
 }
 
 DecisionRecord Lab::decision(const std::string& date) {
@@ -375,8 +382,8 @@ void Lab::take_new(const std::vector<FrictionReading>& rows, const TellOptions& 
         "no longer counted: {} that this file was told as before", counted(count, "reading")));
 }
 
-// Says of which readings some member has no such state: they are kept, and weigh nothing. Throws
-// InputError where that is so of all.
+// Notes readings under conditions where some member of the belief has no friction: they are kept
+// but have no weight. Throws InputError where that is so of all readings.
 void Lab::note_unheld(const std::string& path, TellRecord& record) const {
   std::vector<std::string> notes;
   std::optional<Problem> first;
@@ -390,12 +397,14 @@ void Lab::note_unheld(const std::string& path, TellRecord& record) const {
       if (held) continue;
       const std::string of = designs_[r.experiment.design].name + ", " + text(r.experiment.at);
       if (!first)
-        first = Problem{path, r.line, 0, "",
-                        "some member of belief has no such state (" + text(r.experiment.at) +
-                            "): it cannot be held against it"};
+        first =
+            Problem{path, r.line, 0, "",
+                    "some member of the belief has no friction there (" + text(r.experiment.at) +
+                        "), for example because its film breaks down: the reading cannot be "
+                        "compared with it"};
       notes.push_back(fmt::format(
-          "{} of {} is kept and weighs nothing: some member of belief has no such state", name,
-          of));
+          "{} of {} is kept but has no weight: some member of the belief has no friction there",
+          name, of));
     }
   }
   if (!any_held && first) throw InputError({*first});

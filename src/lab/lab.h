@@ -78,6 +78,9 @@ class Lab {
   // Of the journal: records that a damage took, and where the damaged one is kept.
   int lost() const { return journal_->lost(); }
   const std::string& kept_copy() const { return journal_->kept_copy(); }
+  // Limits of the run's study as the run judged a choice by them, before any reading; none where
+  // the lab stands on no run. Known once the lab has a standing.
+  const std::vector<RunLimit>& run_limits(std::size_t choice) const;
   // Of the last plan or telling; by the model where there is none.
   const Standing& standing();
 
@@ -108,6 +111,7 @@ class Lab {
   std::vector<JournalEntry> entries_;
   std::vector<MemberNumbers> worth_;
   std::vector<std::vector<bool>> kept_;
+  std::vector<std::vector<RunLimit>> run_limits_;  // of the choices
   std::unique_ptr<ResponseTable> table_;
   std::unique_ptr<Standing> standing_;
 };

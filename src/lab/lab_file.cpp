@@ -141,11 +141,12 @@ LabFile with_values(const LabFile& file, const std::vector<std::string>& values)
 }
 
 std::string run_worth_text(const RunWorth& worth) {
-  Json out{{"name", worth.name},
-           {"designs", worth.designs},
-           {"worth", Json::array()},
-           {"kept", worth.kept},
-           {"by_skin", worth.by_skin}};
+  Json out{{"name", worth.name}, {"designs", worth.designs}, {"worth", Json::array()},
+           {"kept", worth.kept}, {"by_skin", worth.by_skin}, {"limits", Json::array()}};
+  for (const std::vector<RunLimit>& of_design : worth.limits) {
+    Json& limits = out["limits"].emplace_back(Json::object());
+    for (const RunLimit& limit : of_design) limits[limit.name] = limit.probability;
+  }
   for (const std::vector<double>& row : worth.worth) {
     Json& numbers = out["worth"].emplace_back(Json::array());
     for (const double x : row) numbers.push_back(std::isfinite(x) ? Json(x) : Json(nullptr));
@@ -161,6 +162,12 @@ RunWorth read_run_worth(const std::string& text, const std::string& file) {
     out.designs = j.at("designs").get<std::vector<std::string>>();
     out.kept = j.at("kept").get<std::vector<std::vector<bool>>>();
     out.by_skin = j.value("by_skin", std::vector<std::vector<double>>(out.designs.size()));
+    for (const Json& of_design : j.value("limits", Json::array())) {
+      std::vector<RunLimit>& limits = out.limits.emplace_back();
+      for (const auto& [name, probability] : of_design.items())
+        limits.push_back({name, probability.get<double>()});
+    }
+    out.limits.resize(out.designs.size());
     for (const Json& row : j.at("worth")) {
       std::vector<double>& numbers = out.worth.emplace_back();
       for (const Json& x : row) numbers.push_back(x.is_null() ? std::nan("") : x.get<double>());

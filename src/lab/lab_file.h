@@ -62,6 +62,12 @@ LabFile read_lab_file(const std::string& folder);
 LabFile with_values(const LabFile& file, const std::vector<std::string>& values);
 std::string lab_file_text(const LabFile& file);
 
+// A limit of the run's study, and with which probability a design keeps it, by the run's belief.
+struct RunLimit {
+  std::string name;
+  double probability = 1;
+};
+
 // What the run that a lab stands on says of its designs at each member.
 struct RunWorth {
   std::string name;                        // what they are compared in
@@ -70,6 +76,7 @@ struct RunWorth {
   std::vector<std::vector<bool>> kept;     // [design][member]: every limit
   // [design][skin]: what the run's skins leave open of them, deviations by each. Eq. lab.3
   std::vector<std::vector<double>> by_skin;
+  std::vector<std::vector<RunLimit>> limits{};  // [design]; empty: a file of an older program
 };
 std::string run_worth_text(const RunWorth& worth);
 RunWorth read_run_worth(const std::string& text, const std::string& file);

@@ -13,9 +13,9 @@ namespace {
 
 // Futures that the value of a candidate is taken over: a share of 1 % is then seen by 4 of them.
 constexpr int kDraws = 384;
-// A batch that changes the choice less often than this changes no decision.
+// Readings that change the choice with less than this probability are said not to change it.
 constexpr double kNoChange = 0.05;
-// Touches by which that is judged, however few a batch is cut to.
+// That is judged by as many touches as this, also where the user asked for a smaller batch.
 constexpr std::size_t kJudgedBy = 10;
 
 std::vector<Candidate> candidates_of(const Standing& s, const ResponseTable& table,
@@ -24,23 +24,25 @@ std::vector<Candidate> candidates_of(const Standing& s, const ResponseTable& tab
   std::vector<Candidate> out;
   const std::string day = options.day.empty() ? options.date : options.day;
   for (const Experiment& e : experiments) {
-    // Under voltage for what is read under voltage: a member without it has nothing to say.
+    // With a voltage friction is read off and on: where a member has no friction under it, for
+    // example because its film breaks down, the reading cannot be compared with that member.
     if (e.at.driven() && !table.cell(e).on) continue;
     Candidate c{e, observations_of(table, e, s.instrument, 0, 0, options.finger, day)};
     if (!c.readings.empty()) out.push_back(std::move(c));
   }
   if (out.empty())
     throw InputError(
-        "no experiment can be held against every member of the belief: some member has no "
-        "friction at the conditions of lab.toml, as where a film does not stand the voltage");
+        "no experiment can be compared with every member of the belief: under each of the "
+        "conditions of lab.toml some member has no friction, for example because its film does not "
+        "withstand the voltage");
   return out;
 }
 
 Aim aim_of(const Standing& s, const NextOptions& options) {
   if (options.aim == Aim::Decision && !s.decided())
     throw InputError(
-        "--for decision: nothing is decided in this lab (worth = \"\" in lab.toml, or "
-        "one design, or no member of the belief at which a design has a worth)");
+        "--for decision: nothing is decided in this lab: `worth` is empty in lab.toml, only one "
+        "design can be chosen, or no design has a value at any member of the belief");
   if (options.aim == Aim::Hypotheses && s.ensemble.hypotheses.size() < 2)
     throw InputError("--for hypotheses: the belief has one hypothesis");
   if (options.aim) return *options.aim;
@@ -154,6 +156,7 @@ PlanRecord plan_batch(const Standing& s, const ResponseTable& table,
   plan.experiments = planned_of(s, table, candidates, batch.chosen, file, numbered);
   for (const Chosen& c : batch.chosen) plan.seconds += c.seconds;
   if (!decision) return plan;
+  // What is said of the batch comes first: reason_to_stop takes further touches into the gain.
   plan.regret_now = decision->regret_now();
   plan.regret_after = decision->regret_after();
   plan.p_change = decision->p_change();

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 
+#include "base/constants.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "config/describe.h"
@@ -75,9 +76,6 @@ void set_worth(const std::vector<MemberNumbers>& designs,
     }
   }
 }
-
-// Of a number of the readings' designs or conditions: those above its middle.
-using NumberOf = std::function<double(const Experiment&)>;
 
 class Places {
  public:
@@ -181,6 +179,23 @@ void decide(Standing& s) {
 }
 
 }  // namespace
+
+std::optional<Aim> aim_at_limits(const Standing& s) {
+  const double kept = s.prospects[s.best].p_limits;
+  if (s.keeps_limits() || kept <= 1 - s.limits.wanted || s.limits.kept.empty()) return std::nullopt;
+  const Ensemble& e = s.deciding().ensemble;
+  const std::vector<double> weights = s.deciding().evidence.weights();
+  const std::vector<double> of_hypothesis = weights_by_hypothesis(e, weights);
+  std::vector<double> kept_of(of_hypothesis.size(), 0);
+  for (std::size_t m = 0; m < weights.size(); ++m)
+    kept_of[e.hypothesis[m]] += s.limits.kept[s.best][m] ? weights[m] : 0;
+  double between = 0;  // variance between hypotheses of whether the limits are kept
+  for (std::size_t h = 0; h < of_hypothesis.size(); ++h) {
+    if (of_hypothesis[h] > 0)
+      between += of_hypothesis[h] * square(kept_of[h] / of_hypothesis[h] - kept);
+  }
+  return between > kept * (1 - kept) / 2 ? Aim::Hypotheses : Aim::Parameters;
+}
 
 std::vector<Observation> observations_of(const ResponseTable& table, const Experiment& experiment,
                                          const Instrument& instrument, double off_share,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,8 @@ struct Standing {
   Standing(const Standing&) = delete;
   Standing& operator=(const Standing&) = delete;
   bool decided() const { return !prospects.empty(); }
+  // Whether the best of the choices keeps every limit as surely as is wanted; if not, none does.
+  bool keeps_limits() const { return prospects[best].p_limits >= limits.wanted - 1e-9; }
   struct Deciding {
     const Ensemble& ensemble;
     const Kernels& kernels;
@@ -62,6 +65,11 @@ struct Standing {
     return {ensemble, kernels, *evidence};
   }
 };
+
+// What to measure for where it is not known whether the best of the choices keeps its limits: this
+// may depend on the hypothesis or, within hypotheses, on the parameters of the finger. Nothing
+// where it is known: the limits are kept as surely as is wanted, or broken as surely.
+std::optional<Aim> aim_at_limits(const Standing& standing);
 
 // Of which row, by whom and when.
 std::vector<Observation> observations_of(const ResponseTable& table, const Experiment& experiment,

@@ -56,6 +56,8 @@ LabJson standing_json(Lab& lab) {
           {"best", s.decided() ? LabJson(name(s.best)) : LabJson(nullptr)},
           {"best_worth", json_number(sign * s.best_worth)},
           {"unanswered", json_number(s.unanswered)},
+          {"limits_wanted", json_number(s.limits.wanted)},
+          {"keeps_limits", s.decided() ? LabJson(s.keeps_limits()) : LabJson(nullptr)},
           {"designs", std::move(designs)},
           {"hypotheses", std::move(hypotheses)},
           {"effective_members", json_number(s.effective_members)},

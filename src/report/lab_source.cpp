@@ -16,7 +16,9 @@
 #include "calibrate/calibration_file.h"
 #include "claims/claim.h"
 #include "config/reader.h"
+#include "design/study.h"
 #include "metrics/metrics.h"
+#include "search/problem.h"
 #include "search/records.h"
 
 namespace papilla::report {
@@ -99,17 +101,64 @@ class LabOpener {
                        ": a second run: what designs of one are worth is not known beside "
                        "those of another; open a lab for each");
     const Folder folder(path);
-    nlohmann::ordered_json run;
     try {
-      run = nlohmann::ordered_json::parse(folder.read("run.json")).at("decision");
-    } catch (const nlohmann::ordered_json::exception&) {
-      throw InputError(path +
-                       "/run.json: no decision in it: an unfinished run, or of another "
-                       "version of this program");
+      const auto run = nlohmann::ordered_json::parse(folder.read("run.json"));
+      if (!run.contains("decision")) refuse_undecided(path, folder, run);
+      take_decision(path, folder, run);
+    } catch (const nlohmann::ordered_json::exception& e) {
+      throw InputError(fmt::format(
+          "{0}/run.json is damaged: {1}; put back a copy of it, or let `papilla optimize STUDY "
+          "--out {0} --resume` write it anew from the journal",
+          path, e.what()));
     }
+    take_study(folder);
+  }
+
+  // A run that was interrupted, has found nothing to decide among, or is not of this version.
+  [[noreturn]] static void refuse_undecided(const std::string& path, const Folder& folder,
+                                            const nlohmann::ordered_json& run) {
+    if (run.value("interrupted", false)) {
+      const std::string hint = search::unfinished_hint(folder);
+      throw InputError(path + ": no decision in it" +
+                       (hint.empty() ? "; its run was interrupted: search again" : hint));
+    }
+    const bool none = run.contains("receipts")
+                          ? run.at("receipts").is_null()
+                          : run.contains("finalists") && run.at("finalists").empty();
+    if (none)
+      throw InputError(path +
+                       ": no decision in it, as it found no design to recommend; loosen a limit or "
+                       "give the search more room or time, and search again");
+    throw InputError(path +
+                     "/run.json: no decision in it, as another version of this program writes it; "
+                     "`papilla optimize` with the same study and --resume writes it anew");
+  }
+
+  // Why a run has not judged its designs over belief, and what to do about it: a reason that lies
+  // in the study's fingers or model says that itself.
+  [[noreturn]] static void refuse_unjudged(const std::string& path, const Folder& folder,
+                                           const nlohmann::ordered_json& run,
+                                           const std::string& reason) {
+    const std::string what = path + ": no decision by belief: " + reason;
+    const auto& finalists = run.at("finalists");
+    const bool any_keeps = std::any_of(finalists.begin(), finalists.end(), [](const auto& f) {
+      return f.at("folder") != "";  // those of the front have one
+    });
+    if (!any_keeps)
+      throw InputError(what + "; loosen a limit or give the search more room, and search again");
+    const Study study = read_study(folder.file("resolved.toml"));
+    if (!search::StudyProblem(study).belief_absent().empty())
+      throw InputError(what + "; then search again");
+    throw InputError(what +
+                     "; give the search more time (`search.time`, or less to evaluate) and "
+                     "search again");
+  }
+
+  void take_decision(const std::string& path, const Folder& folder,
+                     const nlohmann::ordered_json& whole) {
+    const nlohmann::ordered_json& run = whole.at("decision");
     if (const std::string absent = run.value("absent", ""); !absent.empty())
-      throw InputError(path + ": no decision by belief: " + absent +
-                       "; search again with more time, or with fingers that name one");
+      refuse_unjudged(path, folder, whole, absent);
     RunWorth worth;
     worth.name = run.value("worth", "");
     for (const auto& [name, design] : run.at("designs").items()) {
@@ -125,6 +174,10 @@ class LabOpener {
         row.push_back(x.is_null() ? std::nan("") : x.get<double>());
       worth.kept.push_back(design.at("limits_kept_at_members").get<std::vector<bool>>());
       worth.by_skin.push_back(design.value("worth_moved_by_skins", std::vector<double>()));
+      std::vector<RunLimit>& limits = worth.limits.emplace_back();
+      const auto of_design = design.value("p_limits", nlohmann::ordered_json::object());
+      for (const auto& [limit, probability] : of_design.items())
+        limits.push_back({limit, probability.get<double>()});
     }
     if (folder.has("best/build.toml")) {
       const Design best = read_design(folder.file("best/design.toml"));
@@ -135,6 +188,15 @@ class LabOpener {
     file().worth = worth.name;
     file().worth_file = "worth.json";
     out_.opening.worth = std::move(worth);
+  }
+
+  // The study of the run says how surely its limits are to be kept.
+  void take_study(const Folder& folder) {
+    if (!folder.has("resolved.toml")) return;
+    Document study = load_document(folder.file("resolved.toml"), {}, design_roots());
+    StudyRisk risk;
+    read_section(study, "risk", risk);
+    file().limits = risk.limits;
   }
 
   static bool is_same(const Design& a, const Design& b) {
@@ -339,8 +401,10 @@ class LabOpener {
       if (!d.choice) controls.push_back(d.name);
     }
     if (!controls.empty())
-      note("measured, not chosen, as the run does not say what they are worth: " +
-           join_names(controls));
+      note(
+          "the run does not say what these designs are worth, so they are measured and not "
+          "chosen among: " +
+          join_names(controls));
   }
 
   void set_worth() {
@@ -357,7 +421,8 @@ class LabOpener {
                                     [](const Design& d) { return d.drive.driven(); });
     if (driven) file().worth = "worst(modulation)";
     note(driven ? "designs are compared by worst(modulation); --worth for another metric"
-                : "nothing is decided, as some designs are not driven; --worth says by what");
+                : "nothing is decided, as some designs have no voltage: --worth names a metric to "
+                  "compare all of them by");
   }
 
   const LabSource& source_;

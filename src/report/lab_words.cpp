@@ -59,22 +59,73 @@ std::string regret_text(const Lab& lab, const Standing& s, double regret) {
                      significant(100 * regret / std::abs(s.best_worth), 2));
 }
 
+bool of_run(const Lab& lab) { return !lab.file().worth_file.empty(); }
+
 std::string choices_table(const Lab& lab, const Standing& s) {
   const ShownUnit shown = worth_unit(lab.file());
   const std::string unit = shown.unit.empty() ? "" : " [" + shown.unit + "]";
-  std::string out = markdown_head({"design", "p(best)", "expected regret",
-                                   "worth" + unit + ", 95 %", "behind the best" + unit + ", 95 %"});
+  const bool limited = std::any_of(s.prospects.begin(), s.prospects.end(),
+                                   [](const Prospect& p) { return p.p_limits < 1 - 1e-9; });
+  std::vector<std::string> head{"design", "p(best)", "expected regret", "worth" + unit + ", 95 %",
+                                "behind the best" + unit + ", 95 %"};
+  if (limited) head.push_back(of_run(lab) ? "p(every limit)" : "p(has a value)");
+  std::string out = markdown_head(head);
   for (std::size_t i = 0; i < s.prospects.size(); ++i) {
     const auto band = [&](const Standing::Interval& v) {
       return fmt::format("{} ({} to {})", significant(shown.scale * v.middle, 3),
                          significant(shown.scale * v.low, 3), significant(shown.scale * v.high, 3));
     };
-    out += markdown_row({choice_name(lab, s, i), lab_percent(s.prospects[i].p_best),
-                         regret_text(lab, s, s.prospects[i].regret),
-                         band(s.worth[i].times(worth_sign(lab.file(), s))),
-                         i == s.best ? "" : band(s.behind[i])});
+    std::vector<std::string> row{choice_name(lab, s, i), lab_percent(s.prospects[i].p_best),
+                                 regret_text(lab, s, s.prospects[i].regret),
+                                 band(s.worth[i].times(worth_sign(lab.file(), s))),
+                                 i == s.best ? "" : band(s.behind[i])};
+    if (limited) row.push_back(lab_percent(s.prospects[i].p_limits));
+    out += markdown_row(row);
   }
   return out;
+}
+
+// Whether the best keeps its limits: "front/01 keeps every limit of its study with probability 9 %,
+// where 90 % are wanted (`limits` in lab.toml). ..."; "" where it does as surely as is wanted.
+// Readings move the probability of all limits together: of each alone the run's is known.
+std::string limits_text(const Lab& lab, const Standing& s) {
+  if (s.keeps_limits()) return {};
+  std::vector<std::string> unsure;
+  for (const RunLimit& limit : lab.run_limits(s.best)) {
+    if (limit.probability < 1 - 1e-9)
+      unsure.push_back(fmt::format("{} ({})", limit.name, lab_percent(limit.probability)));
+  }
+  return fmt::format(
+      "{} {} with probability {}, where {} are wanted (`limits` in lab.toml).{}",
+      choice_name(lab, s, s.best),
+      of_run(lab) ? "keeps every limit of its study" : "has a value of " + lab.file().worth,
+      lab_percent(s.prospects[s.best].p_limits), lab_percent(s.limits.wanted),
+      unsure.empty() ? ""
+                     : " It may break, with the probability that the run gave to keeping it: " +
+                           join_names(unsure) + ".");
+}
+
+// What to do where the choice is settled and none of the designs keeps its limits surely enough.
+std::string broken_limits_text(const Lab& lab, const Standing& s) {
+  if (s.keeps_limits()) return {};
+  const std::string& folder = lab.folder().path();
+  std::string out = fmt::format(
+      "\n**To stop does not mean that the design is good enough.** {} None of the {} designs "
+      "reaches that. What can be done:\n\n",
+      limits_text(lab, s), s.prospects.size());
+  if (const std::optional<Aim> aim = aim_at_limits(s))
+    out += fmt::format(
+        "- Measure more: members of the belief differ in whether it does, and `papilla next {} "
+        "--for {}` plans readings that tell them apart.\n",
+        folder, aim_names()[static_cast<std::size_t>(*aim)]);
+  if (!lab.readings().empty())
+    out += fmt::format(
+        "- Search again with what the readings say: set `belief = \"{}/belief.toml\"` in the "
+        "study's [finger] and run `papilla optimize`.\n",
+        folder);
+  return out +
+         "- Give the search more room, or loosen the limit in the study, and open a lab for the "
+         "new run.\n";
 }
 
 std::string discrepancy_text(const Standing& s) {
@@ -86,12 +137,13 @@ std::string discrepancy_text(const Standing& s) {
       lab_percent(d.none), significant(d.misfit, 2));
   if (d.none > 0.5) return out + "\n";
   out += fmt::format(
-      " What no member explains lies most likely {} ({}): friction is {:+.0f} % ± {:.0f} % off "
-      "there.",
+      " What no member explains is most likely found {} (probability {}): friction is {:+.0f} % ± "
+      "{:.0f} % off there.",
       first.where, lab_percent(first.probability), 100 * std::expm1(first.shift),
       100 * first.deviation);
   if (d.found.size() > 1 && d.found[1].probability > 0.05)
-    out += fmt::format(" Else {} ({}).", d.found[1].where, lab_percent(d.found[1].probability));
+    out += fmt::format(" If not, it is found {} (probability {}).", d.found[1].where,
+                       lab_percent(d.found[1].probability));
   return out + "\n";
 }
 
@@ -100,9 +152,9 @@ std::string gauge_text(const Lab& lab, const Standing& s) {
   const Instrument& stated = lab.file().instrument;
   const auto line = [&](const char* name, const GaugeSpread& found, double is, double used) {
     if (found.freedom == 0) return;
-    out += fmt::format("- {}: {} % by {} of its own readings, {} % stated{}\n", name,
+    out += fmt::format("- {}: the readings show {} % ({}), lab.toml states {} %{}\n", name,
                        significant(100 * found.deviation, 2), counted(found.freedom, "difference"),
-                       significant(100 * is, 2), used > is ? ": the readings are believed" : "");
+                       significant(100 * is, 2), used > is ? "; that of the readings is used" : "");
   };
   line("repeatability", s.gauge.repeatability, stated.repeatability, s.instrument.repeatability);
   line("day to day", s.gauge.day_to_day, stated.day_to_day, s.instrument.day_to_day);
@@ -112,12 +164,12 @@ std::string gauge_text(const Lab& lab, const Standing& s) {
 }
 
 std::string members_text(const Standing& s) {
-  std::string out =
-      fmt::format("Belief is worth {} equal members.", significant(s.effective_members, 3));
+  std::string out = fmt::format("The belief is as good as {} equally weighted members.",
+                                significant(s.effective_members, 3));
   if (s.effective_members < kFewMembers)
     out +=
-        " These are few: fit it again to all readings (`papilla calibrate` takes readings.csv of "
-        "this folder), and open a new lab with the belief of that fit.";
+        " These are too few to rely on: fit it again to all readings (`papilla calibrate` takes "
+        "readings.csv of this folder), and open a new lab with the belief of that fit.";
   return out + "\n";
 }
 
@@ -183,14 +235,16 @@ std::string stop_text(const Lab& lab, const Standing& s, const PlanRecord& plan)
   if (plan.aim != Aim::Decision) return {};
   if (plan.stop_reason == StopReason::Regret)
     return fmt::format(
-        "\nStop: what is still expected to be lost, {}, is below what was said to be worth it "
-        "(stop in lab.toml).\n",
-        regret_text(lab, s, plan.regret_now));
+               "\nStop: the expected regret of the choice, {}, is below the least that is worth "
+               "measuring (`stop` in lab.toml).\n",
+               regret_text(lab, s, plan.regret_now)) +
+           broken_limits_text(lab, s);
   if (plan.stop_reason == StopReason::NoChange)
     return fmt::format(
-        "\nStop: more experiments change no decision. Of what is still expected to be lost, {}, "
-        "they save less than was said to be worth it (stop in lab.toml).\n",
-        regret_text(lab, s, plan.regret_now));
+               "\nStop: more experiments would hardly change the choice. Of its expected regret, "
+               "{}, they would save less than is worth measuring (`stop` in lab.toml).\n",
+               regret_text(lab, s, plan.regret_now)) +
+           broken_limits_text(lab, s);
   return "\nStop when the expected regret is below `stop` of lab.toml: `papilla tell` says it "
          "after "
          "every table.\n";
@@ -198,7 +252,7 @@ std::string stop_text(const Lab& lab, const Standing& s, const PlanRecord& plan)
 
 // Why a plan is empty.
 std::string empty_text(const PlanRecord& plan) {
-  if (plan.ended != BatchEnd::Time) return "Nothing that can be measured tells anything.\n";
+  if (plan.ended != BatchEnd::Time) return "No experiment of this lab would tell anything new.\n";
   return fmt::format(
       "Nothing fits into the time that was given: the shortest experiment that tells anything "
       "takes {}.\n",
@@ -262,6 +316,13 @@ std::string lab_standing_text(Lab& lab) {
                        choice_name(lab, s, s.best), s.prospects.size(), lab.file().worth,
                        lab_percent(best.p_best), regret_text(lab, s, best.regret));
     out += choices_table(lab, s) + "\n";
+    if (const std::string limits = limits_text(lab, s); !limits.empty()) out += limits + "\n\n";
+    if (of_run(lab) && lab.readings().empty())
+      out +=
+          "p(best) and regret are not quite those of the run, which asks each member as it is, "
+          "with what the skins leave open at that member: the lab also counts what lies between "
+          "the members, so that readings can move it, and what the skins leave open on average "
+          "over the members.\n\n";
   }
   if (s.unanswered > 0)
     out += fmt::format("At members with {} of belief no design has a value of {}: {}.\n\n",

@@ -67,6 +67,23 @@ class LabFolder : public testing::Test {
     return out;
   }
 
+  // The lab as of a run whose first limit is kept by the first three members, of one hypothesis.
+  void stand_on_a_run() const {
+    const std::vector<bool> kept{true, true, true, false, false, false};
+    const std::vector<RunLimit> limits{{"worst(modulation)", 0.5}, {"min_wall", 1}};
+    const RunWorth run{"mean(modulation)",
+                       {"deep", "shallow"},
+                       {std::vector<double>(6, 0.4), std::vector<double>(6, 0.3)},
+                       {kept, kept},
+                       {{}, {}},
+                       {limits, limits}};
+    LabFile lab_file = read_lab_file(folder_);
+    lab_file.worth = run.name;
+    lab_file.worth_file = "worth.json";
+    write_text(folder_ + "/worth.json", run_worth_text(run));
+    write_text(folder_ + "/lab.toml", lab_file_text(lab_file));
+  }
+
   static constexpr const char* kHead =
       "design,repeat,load_N,humidity_percent,voltage_V,day,F_off_N,F_on_N\n";
   static TemporaryFolder* place_;
@@ -429,6 +446,84 @@ TEST_F(LabFolder, KnowsWhatTheSkinsOfItsRunLeftOpen) {
   EXPECT_NEAR(p_best({{0.02, 0}, {0, 0.02}}), 0.5 * std::erfc(-0.01 / 0.04), 0.05);
 }
 
+PlanRecord stopped(StopReason reason) {
+  PlanRecord plan;
+  plan.stop = true;
+  plan.stop_reason = reason;
+  return plan;
+}
+
+TEST_F(LabFolder, SaysWhereItStopsThatItsChoiceMayBreakALimit) {
+  stand_on_a_run();
+  Lab lab(folder_, 1);
+  for (const StopReason reason : {StopReason::Regret, StopReason::NoChange}) {
+    const std::string text = lab_plan_text(lab, stopped(reason));
+    const std::size_t stop = text.find("Stop: ");
+    ASSERT_NE(stop, std::string::npos) << text;
+    for (const std::string& part :
+         {std::string("To stop does not mean that the design is good enough."),
+          std::string("deep keeps every limit of its study with probability 50 %, where 90 % are "
+                      "wanted (`limits` in lab.toml). It may break, with the probability that the "
+                      "run gave to keeping it: worst(modulation) (50 %)."),
+          "`papilla next " + folder_ + " --for hypotheses`"})
+      EXPECT_NE(text.find(part, stop), std::string::npos) << part << "\n" << text;
+    EXPECT_EQ(text.find("min_wall"), std::string::npos) << text;
+    EXPECT_EQ(text.find("Search again"), std::string::npos) << text;  // no readings yet
+  }
+  EXPECT_NE(lab_page(lab).find("| p(every limit) |"), std::string::npos) << lab_page(lab);
+  const auto standing = nlohmann::json::parse(lab_state_json(lab))["standing"];
+  EXPECT_EQ(standing["keeps_limits"], false);
+  EXPECT_EQ(standing["limits_wanted"], 0.9);
+}
+
+TEST_F(LabFolder, SaysNothingOfLimitsThatItsChoiceKeeps) {
+  stand_on_a_run();
+  LabFile lab_file = read_lab_file(folder_);
+  lab_file.limits = 0.4;
+  write_text(folder_ + "/lab.toml", lab_file_text(lab_file));
+  Lab lab(folder_, 1);
+  const std::string text = lab_plan_text(lab, stopped(StopReason::Regret));
+  EXPECT_EQ(text.find("good enough"), std::string::npos) << text;
+  EXPECT_EQ(text.find("where 40 % are wanted"), std::string::npos) << text;
+}
+
+// Friction without voltage tells nothing of the hypotheses, so the limit stays in question.
+TEST_F(LabFolder, AdvisesToSearchAgainWithItsReadings) {
+  stand_on_a_run();
+  tell({file("a.csv", std::string(kHead) + "deep,1,0.2,35,200,1,0.06,\n")});
+  Lab lab(folder_, 1);
+  ASSERT_EQ(lab.readings().size(), 1u);
+  ASSERT_FALSE(lab.standing().keeps_limits());
+  const std::string text = lab_plan_text(lab, stopped(StopReason::Regret));
+  EXPECT_NE(text.find("`belief = \"" + folder_ + "/belief.toml\"` in the study's [finger]"),
+            std::string::npos)
+      << text;
+}
+
+TEST_F(LabFolder, SaysBeforeItsFirstReadingWhyItsProbabilityIsNotThatOfTheRun) {
+  stand_on_a_run();
+  const char* const reason = "p(best) and regret are not quite those of the run";
+  {
+    Lab lab(folder_, 1);
+    EXPECT_NE(lab_standing_text(lab).find(reason), std::string::npos) << lab_standing_text(lab);
+  }
+  const TellReport told =
+      tell({file("a.csv", std::string(kHead) + "deep,1,0.2,35,200,1,0.06,0.09\n")});
+  EXPECT_EQ(told.markdown.find(reason), std::string::npos) << told.markdown;
+}
+
+// A lab of an older program: its worth.json says all limits together, and no name of one.
+TEST_F(LabFolder, ReadsARunsWorthThatNamesNoLimits) {
+  stand_on_a_run();
+  nlohmann::json worth = nlohmann::json::parse(file_text(folder_ + "/worth.json"));
+  worth.erase("limits");
+  write_text(folder_ + "/worth.json", worth.dump());
+  Lab lab(folder_, 1);
+  const std::string text = lab_standing_text(lab);
+  EXPECT_NE(text.find("with probability 50 %, where 90 % are wanted"), std::string::npos) << text;
+  EXPECT_EQ(text.find("It may break"), std::string::npos) << text;
+}
+
 // What a bench has to set stands in the plan, though the lab knows it as the design's own.
 TEST_F(LabFolder, SaysTheFrequencyOfTheDesignInItsPlan) {
   const std::string plan = file_text(folder_ + "/plan_01.csv");
@@ -592,8 +687,8 @@ TEST_F(LabFolder, PlansNoVoltageUnderWhichAMemberHasNoFriction) {
   // What was measured there all the same is not lost.
   const TellReport told =
       tell({file("a.csv", std::string(kHead) + "deep,1,0.2,35,2000,1,0.06,0.09\n")});
-  EXPECT_NE(told.markdown.find("F_on of deep, 35 % RH, 0.2 N, 2000 V, clean is kept and weighs "
-                               "nothing"),
+  EXPECT_NE(told.markdown.find("F_on of deep, 35 % RH, 0.2 N, 2000 V, clean is kept but has no "
+                               "weight"),
             std::string::npos)
       << told.markdown << words(told);
   ASSERT_EQ(readings(), 1u);

@@ -76,7 +76,7 @@ TEST_F(LabSources, DecideAmongTheDesignsOfTheRunWhereverItIsNamed) {
     EXPECT_EQ(choices(lab), front) << names.front();
     EXPECT_EQ(lab.opening.worth->designs, front) << names.front();
     const bool told = std::any_of(lab.notes.begin(), lab.notes.end(), [](const std::string& n) {
-      return n.starts_with("measured, not chosen") && n.ends_with(": third");
+      return n.find("measured and not chosen among") != std::string::npos && n.ends_with(": third");
     });
     EXPECT_EQ(told, names.size() > 1) << names.front();
   }
@@ -102,6 +102,94 @@ TEST_F(LabSources, AreRefusedWithASecondRun) {
               opened({"run", "other"});
             }).find("other: a second run"),
             std::string::npos);
+}
+
+// A study with the shipped finger, whose belief has members; its [finger] is open at the end.
+constexpr const char* kStudy = R"toml(schema_version = 1
+[texture]
+type = "hole_array"
+period = "6 um"
+diameter = "3 um"
+depth = "350 nm"
+[surface]
+dielectric = [{ material = "SiO2", thickness = "1 um" }]
+[drive]
+amplitude = "200 V"
+[design_space]
+"texture.depth" = ["100 nm", "350 nm"]
+[objective]
+maximise = "mean(modulation)"
+[finger]
+base = "fingers/reference.toml"
+)toml";
+
+TEST_F(LabSources, SayThatTheFileOfARunIsDamaged) {
+  const std::string whole = file_text(path("run/run.json"));
+  for (const std::string& text : {whole.substr(0, whole.size() / 2), std::string("no JSON"),
+                                  std::string(), std::string("[1, 2]")}) {
+    write_text(own_.path() / "run/run.json", text);
+    const std::string refused = refusal_of([&] { opened({"run"}); });
+    EXPECT_TRUE(refused.starts_with(path("run/run.json") + " is damaged: ")) << refused;
+    EXPECT_NE(refused.find("--out " + path("run") + " --resume` write it anew"), std::string::npos)
+        << refused;
+  }
+}
+
+TEST_F(LabSources, SayWhyARunHasNoDecision) {
+  const auto refused = [&](const std::string& text) {
+    write_text(own_.path() / "run/run.json", text);
+    return refusal_of([&] { opened({"run"}); });
+  };
+  const std::string interrupted = R"({"interrupted": true})";
+  EXPECT_NE(refused(interrupted).find("its run was interrupted: search again"), std::string::npos);
+  write_text(own_.path() / "run/journal", "");
+  EXPECT_NE(refused(interrupted)
+                .find("its run was interrupted: `papilla optimize STUDY --out " + path("run") +
+                      " --resume`"),
+            std::string::npos);
+  EXPECT_NE(refused(R"({"interrupted": false, "feasible": false, "finalists": []})")
+                .find("it found no design to recommend; loosen a limit"),
+            std::string::npos);
+  EXPECT_NE(refused(R"({"best": "front/01"})").find("another version of this program"),
+            std::string::npos);
+}
+
+// The reason is that of the run; what to do follows from what its study and its front are.
+TEST_F(LabSources, SayWhatARunNeedsThatIsNotJudgedOverBelief) {
+  const auto refused = [&](const std::string& front, const std::string& finger) {
+    write_text(own_.path() / "run/run.json", R"({"finalists": [{"folder": ")" + front +
+                                                 R"("}], "decision": {"absent": "REASON"}})");
+    write_text(own_.path() / "run/resolved.toml", kStudy + finger);
+    return refusal_of([&] { opened({"run"}); });
+  };
+  const std::string begin = path("run") + ": no decision by belief: REASON; ";
+  EXPECT_EQ(refused("front/01", ""),
+            begin +
+                "give the search more time (`search.time`, or less to evaluate) and search "
+                "again");
+  EXPECT_EQ(refused("front/01", "belief = \"\"\n"), begin + "then search again");
+  EXPECT_EQ(refused("", ""),
+            begin + "loosen a limit or give the search more room, and search again");
+}
+
+TEST_F(LabSources, WantLimitsKeptAsTheStudyOfTheRunDoes) {
+  EXPECT_EQ(opened({"run"}).opening.file.limits, 0.9);
+  write_text(own_.path() / "run/resolved.toml",
+             std::string(kStudy) + "[risk]\nlimits = \"60 %\"\n");
+  EXPECT_EQ(opened({"run"}).opening.file.limits, 0.6);
+}
+
+TEST_F(LabSources, TakeTheLimitsOfARunWithTheirProbabilities) {
+  auto run = nlohmann::ordered_json::parse(file_text(path("run/run.json")));
+  run["decision"]["designs"]["front/01"]["p_limits"] = {{"min_wall", 1.0},
+                                                        {"worst(modulation)", 0.49}};
+  write_text(own_.path() / "run/run.json", run.dump());
+  const auto limits = opened({"run"}).opening.worth->limits;
+  ASSERT_EQ(limits.size(), 2u);
+  ASSERT_EQ(limits[0].size(), 2u);
+  EXPECT_EQ(limits[0][1].name, "worst(modulation)");
+  EXPECT_EQ(limits[0][1].probability, 0.49);
+  EXPECT_TRUE(limits[1].empty());
 }
 
 TEST_F(LabSources, AreRefusedWhereAPinTouches) {

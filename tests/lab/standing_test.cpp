@@ -10,12 +10,14 @@ namespace {
 
 // Two designs, no readings.
 std::unique_ptr<Standing> standing_by(const std::vector<double>& weights,
-                                      const std::vector<std::vector<double>>& worth) {
+                                      const std::vector<std::vector<double>>& worth,
+                                      const std::vector<std::vector<bool>>& kept = {},
+                                      const std::vector<std::string>& hypotheses = {}) {
   Belief belief;
   for (const double weight : weights) {
     BeliefMember& m = belief.members.emplace_back();
     m.weight = weight;
-    m.hypothesis = "one";
+    m.hypothesis = hypotheses.empty() ? "one" : hypotheses[belief.members.size() - 1];
   }
   LabFile file;
   file.worth = "worst(voltage_for(modulation = 0.3))";
@@ -24,7 +26,7 @@ std::unique_ptr<Standing> standing_by(const std::vector<double>& weights,
   const ResponseTable table(designs, model);
   std::vector<MemberNumbers> numbers;
   for (const std::vector<double>& of : worth) numbers.push_back({of, 0, {"of the run", {}}, 0});
-  return standing_of(belief, file, designs, table, {}, numbers, {});
+  return standing_of(belief, file, designs, table, {}, numbers, kept);
 }
 
 // Of a voltage that is minimised 0 V would be the best there can be.
@@ -43,6 +45,27 @@ TEST(Standing, LeavesOutMembersAtWhichNoDesignHasAWorth) {
   EXPECT_NEAR(all->unanswered, 0.5, 1e-12);
   EXPECT_EQ(some->unanswered, 0);
   EXPECT_EQ(all->weights.size(), 3u);  // they are members of belief all the same
+}
+
+// At four equal members, of which the last two are of another hypothesis; 90 % are wanted.
+TEST(Standing, SaysWhatTellsWhetherTheChoiceKeepsItsLimits) {
+  const auto by = [](const std::vector<double>& weights, const std::vector<bool>& kept) {
+    return standing_by(weights, {{0.3, 0.3, 0.3, 0.3}, {0.2, 0.2, 0.2, 0.2}}, {kept, kept},
+                       {"one", "one", "two", "two"});
+  };
+  const std::vector<double> equal(4, 0.25);
+  const auto sure = by(equal, {true, true, true, true}),
+             by_hypothesis = by(equal, {true, true, false, false}),
+             by_finger = by(equal, {true, false, true, false}),
+             broken = by({0.04, 0.04, 0.46, 0.46}, {true, true, false, false});
+  EXPECT_TRUE(sure->keeps_limits());
+  EXPECT_EQ(aim_at_limits(*sure), std::nullopt);
+  EXPECT_FALSE(by_hypothesis->keeps_limits());
+  EXPECT_NEAR(by_hypothesis->prospects[by_hypothesis->best].p_limits, 0.5, 1e-12);
+  EXPECT_EQ(aim_at_limits(*by_hypothesis), Aim::Hypotheses);
+  EXPECT_EQ(aim_at_limits(*by_finger), Aim::Parameters);
+  EXPECT_FALSE(broken->keeps_limits());
+  EXPECT_EQ(aim_at_limits(*broken), std::nullopt);  // 8 %: they are broken, whatever is read
 }
 
 TEST(Standing, DecidesNothingWhereNoMemberHasAWorth) {

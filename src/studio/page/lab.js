@@ -47,8 +47,9 @@ function standing(lab, shown) {
   const now = best ? `${s.best} is the best with ${percent(best.p_best)}${before}, expected regret ${regretOf(best.regret, s.best_worth, shown)}` : 'Nothing is to be decided';
   // Where members explain the readings, places of a discrepancy are no news.
   const found = s.explained !== null && s.explained < 0.5 && s.discrepancies.length ? ` No member explains the readings: ${s.discrepancies.map((d) => `${d.where} is ${d.shift > 0 ? '+' : ''}${round(100 * d.shift, 2)} % off`).join(', ')}.` : '';
-  const stop = lab.plans.length && lab.plans[lab.plans.length - 1].stop ? ' What is left to gain is below what was said to be worth it: stop.' : '';
-  return `${now}; ${s.readings} readings of ${lab.told.length} files told.${found}${s.refit ? ' The belief is worth few members by now: fit again with readings.csv.' : ''}${stop}`;
+  const stop = lab.plans.length && lab.plans[lab.plans.length - 1].stop ? ' Stop: further readings would save less than is worth measuring (stop in lab.toml).' : '';
+  const limits = best && s.keeps_limits === false ? ` It keeps every limit with probability ${percent(best.p_every_limit)}, where ${percent(s.limits_wanted)} are wanted.` : '';
+  return `${now}; ${s.readings} readings of ${lab.told.length} files told.${found}${s.refit ? ' Few members of the belief are left: fit again with readings.csv.' : ''}${limits}${stop}`;
 }
 function showPlan(lab) {
   const newest = lab.plans[lab.plans.length - 1], done = {};
