@@ -13,6 +13,7 @@
 #include "report/run_numbers.h"
 #include "report/sheet.h"
 #include "report/unstable.h"
+#include "search/levels.h"
 
 namespace papilla::report {
 namespace {
@@ -132,6 +133,25 @@ std::string checked_worst(const StabilityVariant& v, std::size_t place) {
                 fmt::format("{:.3f}", v.worst[place]));
 }
 
+// "at the coarser level of the checks": they are of fewer pixels or skins than the other numbers.
+std::string checks_level(const ResultFiles& f) {
+  const Fidelity level = search::stage_fidelity(f.problem, Stage::Stability),
+                 &others = f.result.confirmed_with;
+  const bool coarser = level.grid < others.grid || level.skins < others.skins;
+  return fmt::format("at the {}level of the checks", coarser ? "coarser " : "");
+}
+
+// "64 pixels, 8 skins"
+std::string checks_pixels(const ResultFiles& f) {
+  const Fidelity level = search::stage_fidelity(f.problem, Stage::Stability);
+  const auto said = [](const char* what, int count) {
+    return stated(
+        count_number(fmt::format("{} of the checks", what), static_cast<std::size_t>(count), {}),
+        fmt::format("{} {}", count, what));
+  };
+  return said("pixels", level.grid) + ", " + said("skins", level.skins);
+}
+
 // The numbers of a design in one of the checks: "mean(modulation) 0.296 (0.608)".
 std::string skin_text(const ResultFiles& f) {
   const Stability& s = f.result.stability;
@@ -157,8 +177,9 @@ std::string skin_text(const ResultFiles& f) {
   if (f.problem.judged_at_amplitude() && *place < other.worst.size())
     values.push_back(fmt::format("a worst modulation of {} in place of {}",
                                  checked_worst(other, *place), checked_worst(own, *place)));
-  return fmt::format(" On {}, with finger \"{}\" alone, it has {}.", other.name,
-                     f.problem.tasks().front().name, join_names(values));
+  return fmt::format(" On {}, with finger \"{}\" alone and {} ({}), it has {}.", other.name,
+                     f.problem.tasks().front().name, checks_level(f), checks_pixels(f),
+                     join_names(values));
 }
 
 // Choices of the model, and how far each moves the design alone. Without belief no ± holds any.
@@ -185,11 +206,11 @@ std::string model_text(const ResultFiles& f) {
                     checked_value(o, (*high)[k], "the choice of the model that makes it largest")));
   }
   return fmt::format(
-      "{} ({} of them, on {} \"{}\"{}): over these {}.", out,
+      "{} ({} of them, on {} \"{}\" {}{}): over these {}.", out,
       stated(count_number("choices of the model that were tried", tried, {Stage::Stability}),
              fmt::format("{}", tried)),
       f.study.design.counterface.in_place() ? "the pin" : "finger", f.problem.tasks().front().name,
-      s.has_order() ? "; the table \"Does the order hold?\" has each" : "",
+      checks_level(f), s.has_order() ? "; the table \"Does the order hold?\" has each" : "",
       ranges.empty() ? "it has no value" : "it has " + join_names(ranges));
 }
 
@@ -381,8 +402,10 @@ std::string unfelt_skin_text(const ResultFiles& f) {
           : fmt::format("{} has {} there", design_name(f.result.finalists[best].folder),
                         checked_worst(other, best));
   return fmt::format(
-      " But on {} (finger \"{}\") its worst modulation is {}, which people do not notice, {}.",
-      other.name, f.problem.tasks().front().name, checked_worst(other, *place), others);
+      " But on {} (finger \"{}\" alone, {}) its worst modulation is {}, which people do not "
+      "notice, {}.",
+      other.name, f.problem.tasks().front().name, checks_level(f), checked_worst(other, *place),
+      others);
 }
 
 std::vector<std::string> grounds(const ResultFiles& f) {

@@ -16,6 +16,8 @@
 #include "report/grounds.h"
 #include "report/limits.h"
 #include "report/run_numbers.h"
+#include "report/surface_changes.h"
+#include "report/textures.h"
 #include "report/unstable.h"
 #include "report/yield.h"
 
@@ -24,48 +26,6 @@ namespace {
 
 const FinalDesign& best_of(const ResultFiles& f) { return f.result.finalists[f.result.best]; }
 Advice advice_of(const ResultFiles& f) { return search::advice_of(f.problem, f.result); }
-
-// Whose numbers are compared, for the receipts.
-struct Pair {
-  std::string design, other;
-};
-
-// Objectives that differ by more than the error of the difference: "raises mean(modulation) by
-// 0.031 ± 0.012 (better)"; what is better comes first. "" where none does.
-std::string changes(const ResultFiles& f, const Pair& words, const Score& design,
-                    const Score& other) {
-  std::vector<std::string> better, worse;
-  for (std::size_t k = 0; k < design.values.size(); ++k) {
-    const StudyObjective& o = f.problem.objectives()[k];
-    const double change = design.values[k] - other.values[k];
-    const double error = difference_error(design, other, k);
-    if (std::abs(change) <= error) continue;
-    // A quantity without an error, an appearance, changes by rounding alone.
-    if (shown_value(o.expression, change) == shown_value(o.expression, 0)) continue;
-    const bool raised = change > 0, gain = raised == o.maximise;
-    const StatedNumber by =
-        raised ? difference_number(f, words.design + " less " + words.other, design, other, k)
-               : difference_number(f, words.other + " less " + words.design, other, design, k);
-    const std::string bar = scatters(change, error) ? " ± " + shown_error(o.expression, error) : "";
-    const std::string unit = shown_unit(o.expression).unit;
-    (gain ? better : worse)
-        .push_back(fmt::format("{} {} by {} ({})", raised ? "raises" : "lowers", o.name,
-                               stated(by, shown_value(o.expression, std::abs(change)) + bar +
-                                              (unit.empty() ? "" : " " + unit)),
-                               gain ? "better" : "worse"));
-  }
-  better.insert(better.end(), worse.begin(), worse.end());
-  return join_names(better, " and ");
-}
-
-// The value of a variable.
-std::string chosen_value(const Variable& v, double value, const std::string& of) {
-  const std::string text = variable_text(v, value);
-  if (v.is_kind()) return text;
-  return stated(bare_number(v.path + " of " + of, value / find_unit(v.unit)->to_si, v.unit, kChosen,
-                            {Stage::Confirm}),
-                text);
-}
 
 }  // namespace
 
@@ -123,25 +83,9 @@ std::string rounding_text(const ResultFiles& f) {
       broken.empty() ? "" : " (of the nearest " + join_names(broken) + ")");
 }
 
-// What textures of the front gain over what is recommended without one, at which cost: the advice
-// is about the best design alone.
-std::string other_textures(const ResultFiles& f) {
-  const Score flat = recommended_of(f).confirmed;
-  std::vector<std::string> out;
-  for (std::size_t i = 0; i < f.result.finalists.size(); ++i) {
-    const FinalDesign& d = f.result.finalists[i];
-    if (!d.on_front || i == f.result.best || !facts(d.design.texture).relief.present) continue;
-    if (search::no_better(f.problem.objectives(), d.confirmed, flat)) continue;
-    const std::string name = design_name(d.folder);
-    out.push_back(name + " " +
-                  changes(f, {name, "what is recommended without texture"}, d.confirmed, flat));
-  }
-  return out.empty() ? ""
-                     : " What other textures of the front change: " + join_names(out, "; ") + ".";
-}
-
 // Why no texture is built: of all of them where none gains, else of the best design alone.
 std::string no_texture(const ResultFiles& f, const std::string& of_all, bool others_gain) {
+  if (std::string unknown = textures_unknown(f); !unknown.empty()) return unknown;
   if (!others_gain) return of_all + " more than the error of the difference";
   const FinalDesign& best = best_of(f);
   return facts(best.design.texture).relief.present
@@ -169,8 +113,8 @@ std::string worth_building(const ResultFiles& f) {
     if (const auto broken = broken_texts(broken_without_texture(f.problem, r)); !broken.empty())
       clauses.push_back(fmt::format("Without its texture the same surface breaks a limit: {}.",
                                     join_names(broken)));
-    if (const std::string same =
-            changes(f, {"the best", "the same surface without texture"}, best.confirmed, *r.flat);
+    if (const std::string same = score_changes(f, {"the best", "the same surface without texture"},
+                                               best.confirmed, *r.flat);
         !same.empty())
       clauses.push_back("Its texture " + same + ".");
   } else {
@@ -182,7 +126,8 @@ std::string worth_building(const ResultFiles& f) {
   if (flat &&
       surface_text(f, of_flat, r.finalists[*flat].unit) != surface_text(f, of_flat, best.unit)) {
     const FinalDesign& other = r.finalists[*flat];
-    const std::string both = changes(f, {"the best", of_flat}, best.confirmed, other.confirmed);
+    const std::string both =
+        score_changes(f, {"the best", of_flat}, best.confirmed, other.confirmed);
     const std::string surface = surface_text(f, of_flat, other.unit);
     clauses.push_back(fmt::format(
         "Against the best flat surface of this run, {}{}, it {}.", design_name(other.folder),
@@ -194,16 +139,12 @@ std::string worth_building(const ResultFiles& f) {
                      finish.empty() ? "" : " with " + finish, join_names(clauses, " "));
 }
 
-// Why a surface has none, of one that was asked or was not.
-std::string without_number(const std::optional<Score>& asked) {
-  return asked ? "has no number (" + asked->reason + ")" : "was not computed in the time";
-}
-
 std::string leave_flat(const ResultFiles& f) {
   const std::string others = other_textures(f);
-  return fmt::format("Leave it flat: {}.{}{}",
-                     no_texture(f, "no texture or finish of this search gains", !others.empty()),
-                     others, rounding_text(f));
+  std::string none = no_texture(f, "no texture or finish of this search gains", !others.empty());
+  if (f.result.flat_before && !textures_unknown(f).empty())
+    none += "; the finish of the best adds no more than the error of the difference";
+  return fmt::format("Leave it flat: {}.{}{}", none, others, rounding_text(f));
 }
 
 std::string change_finish(const ResultFiles& f) {
@@ -214,12 +155,13 @@ std::string change_finish(const ResultFiles& f) {
     return fmt::format(
         "Leave it flat: {}. What the finish does ({}) is not known: the study's own surface {}."
         "{}{}{}",
-        none, finish_text(f), without_number(r.flat_before_unanswered), others, rounding_text(f),
-        unstable_recommended(f));
+        none, finish_text(f),
+        without_number(f, f.problem.space().own_surface(), r.flat_before_unanswered), others,
+        rounding_text(f), unstable_recommended(f));
   }
   std::vector<std::string> does;
-  if (std::string both = changes(f, {"the finish of the best", "that of the study"},
-                                 r.flat ? *r.flat : best_of(f).confirmed, *r.flat_before);
+  if (std::string both = score_changes(f, {"the finish of the best", "that of the study"},
+                                       r.flat ? *r.flat : best_of(f).confirmed, *r.flat_before);
       !both.empty())
     does.push_back("that " + both);
   if (const std::vector<std::string> broken = broken_texts(broken_before(f.problem, r));
@@ -306,9 +248,14 @@ Design built_design(const ResultFiles& f) {
 std::optional<std::size_t> recommended_place(const ResultFiles& f) {
   const FinalDesign design = recommended_of(f);
   if (design.unit.empty()) return std::nullopt;  // outside the space
-  // The surface of a textured design without its texture may be one of the finalists too.
-  const Point unit =
-      design.flat ? f.problem.space().flattened(design.unit).value_or(design.unit) : design.unit;
+  // The surface of a textured design without its texture may be one of the finalists too, where the
+  // space has surfaces without one: else it has no place among them, that of its texture least.
+  Point unit = design.unit;
+  if (design.flat && facts(f.problem.space().design(unit).texture).relief.present) {
+    const std::optional<Point> flat = f.problem.space().flattened(unit);
+    if (!flat) return std::nullopt;
+    unit = *flat;
+  }
   for (std::size_t i = 0; i < f.result.finalists.size(); ++i) {
     if (f.result.finalists[i].unit == unit) return i;
   }
@@ -328,8 +275,8 @@ std::string recommendation(const ResultFiles& f) {
       return fmt::format(
           "Whether a texture is worth building is not known: the surface without it {}. What "
           "follows is of {}, the best of the front.{}",
-          without_number(f.result.flat_unanswered), design_name(best_of(f).folder),
-          unsure_limits_text(f) + unstable_recommended(f));
+          without_number(f, best_of(f).unit, f.result.flat_unanswered),
+          design_name(best_of(f).folder), unsure_limits_text(f) + unstable_recommended(f));
     case Advice::LeaveFlat:
       return leave_flat(f);
     case Advice::Finish:

@@ -58,6 +58,17 @@ std::string objective_text(const ResultFiles& f, const std::string& of, const Sc
   return stated(objective_number(f, of, score, k), out + (unit.empty() ? "" : " " + unit));
 }
 
+std::string share_text(double share, double error) {
+  // In tenths, as they are shown: what rounds to nothing passes no end.
+  const double value = std::round(1e3 * share), bar = std::round(1e3 * error);
+  if (value + bar <= 1e3 && value - bar >= 0)
+    return fmt::format("{:.1f} ± {:.1f} %", 100 * share, 100 * error);
+  const auto end = [](double tenths) {
+    return tenths <= 0 ? "0" : tenths >= 1e3 ? "100" : fmt::format("{:.1f}", tenths / 10);
+  };
+  return end(value - bar) + " to " + end(value + bar) + " %";
+}
+
 StatedNumber difference_number(const ResultFiles& f, const std::string& words, const Score& design,
                                const Score& other, std::size_t k) {
   const StudyObjective& o = f.problem.objectives()[k];

@@ -18,6 +18,9 @@ bool scatters(double value, double error);
 // the value alone.
 std::string objective_text(const ResultFiles& files, const std::string& of, const Score& score,
                            std::size_t objective);
+// A share with its standard error: "12.1 ± 0.4 %"; where that would pass 0 or 100 %, what it
+// leaves: "60.4 to 100 %".
+std::string share_text(double share, double error);
 // What a design has more than another.
 StatedNumber difference_number(const ResultFiles& files, const std::string& words,
                                const Score& design, const Score& other, std::size_t objective);

@@ -67,12 +67,15 @@ std::string best_text(const ResultFiles& f) {
 }
 
 // The step from the study's own flat surface to the best design, split into the part of the
-// finish (and drive) and the part of the texture.
+// finish (and drive) and the part of the texture, where it has one.
 std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
   const OptimiseResult& r = f.result;
   const auto& objectives = f.problem.objectives();
-  const bool flat_best = recommended_design(f.problem, r).flat;
-  std::string out = "\n## What the texture does, and what the finish does\n\n| surface |";
+  const bool flat_best = recommended_design(f.problem, r).flat,
+             textured = facts(best.design.texture).relief.present;
+  if (!textured && !r.flat_before) return {};
+  std::string out = fmt::format("\n## What {}the finish does\n\n| surface |",
+                                textured ? "the texture does, and what " : "");
   std::string rule = "|---|";
   for (const auto& o : objectives) {
     out += fmt::format(" {} |", heading(o));
@@ -86,11 +89,13 @@ std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
       out += fmt::format(" {} |", with_errors(objectives[k], s, k));
     out += with_worst ? fmt::format(" {:.3f} |\n", s.worst) : "\n";
   };
-  if (flat_best) out = "\n**" + std::string(kNoBetter) + "**\n" + out;
+  if (flat_best && textured) out = "\n**" + std::string(kNoBetter) + "**\n" + out;
   if (r.flat_before) row("flat, finish and drive of the study file", *r.flat_before);
   row(r.flat_before ? "flat, finish and drive of the best design" : "flat", *r.flat);
-  row(flat_best ? "best of the front" : "best design", best.confirmed);
+  if (textured) row(flat_best ? "best of the front" : "best design", best.confirmed);
+  bool compared = false;
   const auto difference = [&](const std::string& name, const Score& other) {
+    compared = true;
     out += "| " + name + " |";
     for (std::size_t k = 0; k < objectives.size(); ++k) {
       const MetricExpression& e = objectives[k].expression;
@@ -103,7 +108,7 @@ std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
     }
     out += with_worst ? " |\n" : "\n";
   };
-  difference("difference made by the texture", *r.flat);
+  if (textured) difference("difference made by the texture", *r.flat);
   if (const auto rounded = worth_on_grid(f.problem, r))
     row(flat_best ? "the flat surface, rounded to the grid of the fab"
                   : "best design, rounded to the grid of the fab",
@@ -113,14 +118,14 @@ std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
     row(("best flat surface of this run, " + design_name(other.folder)).c_str(), other.confirmed);
     difference("difference from the best flat surface", other.confirmed);
   }
-  out +=
-      "\n± of the difference is from both on the same skins, droplets and grid, skin by "
-      "skin: what moves both alike is not in it (the larger of both where their numbers of skins "
-      "differ).\n";
-  if (r.flat_before) {
+  if (compared)
     out +=
-        "\nFrom the first row to the second is the finish (and drive), from the second to the "
-        "third the texture.\n";
+        "\n± of the difference is from both on the same skins, droplets and grid, skin by "
+        "skin: what moves both alike is not in it (the larger of both where their numbers of skins "
+        "differ).\n";
+  if (r.flat_before) {
+    out += "\nFrom the first row to the second is the finish (and drive)";
+    out += textured ? ", from the second to the third the texture.\n" : ".\n";
   }
   return out;
 }

@@ -62,7 +62,8 @@ std::string fields_table(const WaferPlan& plan) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& [treatment, line] : places) {
     const Treatment& t = plan.treatments[treatment];
-    rows.push_back({t.name, texture_name(t.design.texture), line});
+    const bool relief = facts(t.design.texture).relief.present;
+    rows.push_back({t.name, relief ? texture_name(t.design.texture) : "flat", line});
   }
   return aligned_table(rows, 3);
 }
@@ -118,8 +119,10 @@ std::string wafer_text(const WaferPlan& plan, const WaferDrawing& drawing,
                      1e3 * plan.pitch_y);
   out += fields_table(plan) + '\n';
   for (const WaferLevel& level : drawing.levels) {
-    out += fmt::format("mask {}: etch {:.6g} nm, designs {}\n", level.number, 1e9 * level.etch,
-                       level.designs.empty() ? "none" : join_names(level.designs));
+    out += level.designs.empty()
+               ? fmt::format("mask {}: labels and marks alone\n", level.number)
+               : fmt::format("mask {}: etch {:.6g} nm, designs {}\n", level.number,
+                             1e9 * level.etch, join_names(level.designs));
   }
   for (const std::vector<std::string>* notes : {&plan.notes, &drawing.notes}) {
     for (const std::string& note : *notes) out += note + '\n';

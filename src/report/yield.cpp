@@ -43,10 +43,15 @@ std::string tenths_percent(double share) {
 constexpr const char* kOfPlates = "counted over plates of the numbers as they were confirmed";
 const std::vector<Stage> kOfYield{Stage::Confirm, Stage::Rounding};
 
-// "12.1 ± 0.4", in per cent or points of it.
-std::string share_stated(const std::string& words, const YieldShare& share) {
+// In per cent, or points of it.
+std::string share_stated(const std::string& words, const YieldShare& share,
+                         const std::string& text) {
   return stated({words, 100 * share.share, "%", {100 * share.error, ""}, {{}, kOfPlates}, kOfYield},
-                fmt::format("{:.1f} ± {:.1f}", 100 * share.share, 100 * share.error));
+                text);
+}
+
+std::string now_stated(const Yield& yield) {
+  return share_stated("yield", yield.now, share_text(yield.now.share, yield.now.error));
 }
 
 // "min_wall (4.1 %)", the most often broken first.
@@ -82,10 +87,12 @@ std::string gain_text(const Study& study, const Yield& yield) {
     return yield.now.share < 1 ? " Halving one tolerance alone gains no more than the error." : "";
   }
   const std::string& path = study.scatter[*most].path;
+  const YieldShare& gain = yield.halved[*most];
   return fmt::format(
       " {} costs most: tightening it from {} to {} gains {} points.", path,
       scatter_stated(study, *most), scatter_stated(study, *most, 0.5),
-      share_stated("yield that half the scatter of " + path + " gains", yield.halved[*most]));
+      share_stated("yield that half the scatter of " + path + " gains", gain,
+                   fmt::format("{:.1f} ± {:.1f}", 100 * gain.share, 100 * gain.error)));
 }
 
 }  // namespace
@@ -100,8 +107,8 @@ std::string tolerance_text(const Study& study, std::size_t scatter, double share
 
 std::string yield_sentence(const ResultFiles& f) {
   if (!f.result.yield) return {};
-  return fmt::format(" Of the plates that scatter as stated {} % keep every limit.",
-                     share_stated("yield", f.result.yield->now));
+  return fmt::format(" Of the plates that scatter as stated {} keep every limit.",
+                     now_stated(*f.result.yield));
 }
 
 std::string yield_text(const ResultFiles& f) {
@@ -110,8 +117,8 @@ std::string yield_text(const ResultFiles& f) {
   std::vector<std::string> tolerances;
   for (std::size_t k = 0; k < f.study.scatter.size(); ++k)
     tolerances.push_back(f.study.scatter[k].path + " " + scatter_stated(f.study, k));
-  return fmt::format("Yield: {} % of the plates keep every limit ({}{}).{}{}",
-                     share_stated("yield", yield.now), join_names(tolerances),
+  return fmt::format("Yield: {} of the plates keep every limit ({}{}).{}{}", now_stated(yield),
+                     join_names(tolerances),
                      f.study.correlations.empty() ? "" : ", correlated as stated",
                      broken_text(f.study, yield), gain_text(f.study, yield));
 }

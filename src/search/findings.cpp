@@ -44,6 +44,31 @@ std::vector<OneValue> one_value_variables(const StudyProblem& problem,
   return out;
 }
 
+TexturesTried textures_tried(const StudyProblem& problem, const std::vector<Evaluation>& history) {
+  const std::vector<Constraint>& limits = problem.study().constraints;
+  const Judged judged = problem.constraints().in_before_evaluation();
+  TexturesTried out;
+  out.breaking.resize(limits.size());
+  for (const Evaluation& e : history) {
+    if (!facts(problem.space().design(e.unit).texture).relief.present) continue;
+    const std::vector<double>& beyond = e.outcome.constraints;
+    ++out.tried;
+    if (e.outcome.ok) {
+      ++out.evaluated;
+      out.kept += e.outcome.feasible();
+    } else if (beyond.size() != judged.size() || !(e.outcome.violation() > 0)) {
+      if (out.failure.empty()) out.failure = e.outcome.reason;
+    } else if (++out.refused; beyond.front() > 0) {  // of no such shape the others say nothing
+      if (out.impossible++ == 0) out.reason = e.outcome.reason;
+    } else {
+      for (std::size_t k = 1; k < judged.size(); ++k) {
+        if (beyond[k] > 0) ++out.breaking[static_cast<std::size_t>(judged[k] - limits.data())];
+      }
+    }
+  }
+  return out;
+}
+
 std::vector<AtBound> variables_at_bound(const StudyProblem& problem, const Point& best,
                                         const std::vector<VariableSensitivity>& sensitivity) {
   const Study& study = problem.study();

@@ -1,6 +1,7 @@
 // What a run did not try: variables that never moved, bounds that the best design lies on.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "base/rooms.h"
@@ -30,6 +31,18 @@ struct AtBound {
 // Of evaluated designs; empty where there are fewer than two, or one design only in the space.
 std::vector<OneValue> one_value_variables(const StudyProblem& problem,
                                           const std::vector<Evaluation>& history);
+
+// What a search tried of textures: surfaces with a relief.
+struct TexturesTried {
+  std::size_t tried = 0, evaluated = 0;  // evaluated: with numbers
+  std::size_t kept = 0;                  // of those: keep every limit at the search's level
+  std::size_t refused = 0;               // by limits that need no evaluation
+  std::size_t impossible = 0;            // of those: no such shape, or none that can be judged
+  std::vector<std::size_t> breaking;     // refused by each limit, as the study lists them
+  std::string reason;                    // of the first that is impossible
+  std::string failure;                   // of the first that was asked and has no answer
+};
+TexturesTried textures_tried(const StudyProblem& problem, const std::vector<Evaluation>& history);
 
 std::vector<AtBound> variables_at_bound(const StudyProblem& problem, const Point& best,
                                         const std::vector<VariableSensitivity>& sensitivity);

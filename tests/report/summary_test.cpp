@@ -21,6 +21,7 @@
 #include "report/remarks.h"
 #include "report/results.h"
 #include "report/run_json.h"
+#include "report/run_numbers.h"
 #include "report/sheet.h"
 #include "report/stated_number.h"
 #include "report/tables.h"
@@ -270,6 +271,19 @@ TEST(BuildSheet, SaysWhatTheTextureGainsAndItsTolerances) {
   EXPECT_EQ(advice_of(costly.problem, costly.result), Advice::Nothing);
 }
 
+// Where no texture of the study has depth 0 the flat surface is none of the finalists: what was
+// checked of its texture is not said of it.
+TEST(BuildSheet, ChecksOfATextureAreNotThoseOfTheSurfaceWithoutIt) {
+  Study study = holes();
+  for (Variable& v : study.variables) {
+    if (v.path == "texture.depth") v.low = 100e-9;
+  }
+  Searched run(study);
+  run.result.flat = score(0.49, 0.29, 0.2);
+  ASSERT_EQ(advice_of(run.problem, run.result), Advice::Finish);
+  EXPECT_EQ(recommended_place(run.files()), std::nullopt);
+}
+
 // Lead, dimensions and JSON are of one surface: that without a texture.
 TEST(BuildSheet, OfAFlatSurfaceIsFlatEverywhere) {
   Searched run;
@@ -307,6 +321,114 @@ TEST(BuildSheet, OfAFlatSurfaceIsFlatEverywhere) {
       nlohmann::json::parse(read_bytes(run.folder + "/best/metrics.json"))["variables"].size(), 1u);
 }
 
+// Flat designs alone were confirmed: what is known of textures is what became of them.
+TEST(BuildSheet, OfTexturesWithoutConfirmedNumbersSaysWhyNothingIsKnown) {
+  Searched run;
+  const auto unit = [&](double period, double diameter, double depth, double angle) {
+    return run.problem.space().unit({period, diameter, depth, angle * kPi / 180});
+  };
+  FinalDesign& best = run.result.finalists[0];
+  const FinalDesign texture = run.result.finalists[1];
+  run.result.finalists.pop_back();
+  run.result.stability = {};
+  best.unit = unit(5e-6, 3e-6, 0, 70);
+  best.design = run.problem.space().design(best.unit);
+  run.result.flat = best.confirmed;
+  ASSERT_EQ(advice_of(run.problem, run.result), Advice::Finish);
+  const auto says = [&](const std::string& text) {
+    const std::string lead = as_read(recommendation(run.files()));
+    EXPECT_NE(lead.find("(better); " + text + "."), std::string::npos) << lead;
+    EXPECT_EQ(lead.find("adds more than"), std::string::npos) << lead;
+  };
+  says("no texture was tried, so what one would gain is not known");
+  // Walls of 300 and 350 nm, the first beside a depth of 350 nm.
+  for (const Point& thin : {unit(5e-6, 4.7e-6, 350e-9, 50), unit(5e-6, 4.65e-6, 100e-9, 50)}) {
+    search::Judgement refused;
+    refused.outcome.constraints =
+        run.problem.constraints().before_evaluation(run.problem.space().design(thin));
+    run.history.add(thin, refused);
+  }
+  const std::string none = "no texture was evaluated, so what one would gain is not known (of ",
+                    two =
+                        "2 break a limit: min_wall at least 0.4 um by 2, aspect_ratio at most 1 "
+                        "by 1";
+  says(none + "2 that were tried " + two + ")");
+  search::Judgement pulled_in;
+  pulled_in.outcome.reason = "smooth: pull-in";
+  run.history.add(unit(5e-6, 3e-6, 350e-9, 50), pulled_in);
+  says(none + "3 that were tried " + two + "; 1 has no answer: smooth: pull-in)");
+  search::Judgement impossible;
+  impossible.outcome.constraints = {1, -1, 1, -1, -1};
+  impossible.outcome.reason = "walls meet";
+  run.history.add(unit(5e-6, 3e-6, 350e-9, 60), impossible);
+  run.history.add(unit(5e-6, 3e-6, 350e-9, 65), impossible);
+  says(none + "5 that were tried " + two +
+       "; 2 cannot be made or judged, the first: walls meet; 1 has no answer: smooth: pull-in)");
+  search::Judgement evaluated;
+  evaluated.outcome.ok = true;
+  evaluated.outcome.objectives = {-0.4, 0.3};
+  run.history.add(texture.unit, evaluated);
+  run.history.add(best.unit, evaluated);  // flat
+  says(
+      "no texture has confirmed numbers (1 of the 1 that were evaluated in the search keeps every "
+      "limit at its coarser level), so what one would gain is not known at the accuracy of the "
+      "study");
+  const std::string page = as_read(run_summary(run.files()));
+  EXPECT_NE(page.find("\n## What the finish does\n"), std::string::npos) << page;
+  EXPECT_EQ(page.find("made by the texture"), std::string::npos) << page;
+  run.result.finalists.push_back(texture);
+  run.result.finalists[1].feasible = false;
+  run.result.finalists[1].confirmed.oxide_margin = 1.5;
+  const std::string broken =
+      "none of the textures that were confirmed (1) keeps every limit, broken: "
+      "oxide_breakdown_margin at least 2 by 1";
+  says(broken);
+  run.result.flat_before = run.result.flat;
+  EXPECT_EQ(as_read(recommendation(run.files())),
+            "Leave it flat: " + broken +
+                "; the finish of the best adds no more than the error of the difference.");
+  run.result.finalists[1].feasible = true;
+  EXPECT_EQ(as_read(recommendation(run.files())),
+            "Leave it flat: no texture or finish of this search gains more than the error of the "
+            "difference.");
+}
+
+// The surface without the texture was not compared: what the run knows of it otherwise.
+TEST(BuildSheet, SaysWhatIsKnownOfASurfaceThatWasNotCompared) {
+  Searched run;
+  run.result.flat.reset();
+  run.result.finalists[0].searched = score(0.52, 0.31, 0);
+  ASSERT_EQ(advice_of(run.problem, run.result), Advice::Unknown);
+  const auto says = [&](const std::string& text) {
+    const std::string lead = as_read(recommendation(run.files()));
+    EXPECT_NE(lead.find("the surface without it was not computed in the time" + text +
+                        ". What follows is of"),
+              std::string::npos)
+        << lead;
+  };
+  const auto flat = [&](double angle) {
+    return run.problem.space().unit({5e-6, 3e-6, 0, angle * kPi / 180});
+  };
+  search::Judgement evaluated;
+  evaluated.outcome.ok = true;
+  evaluated.outcome.objectives = {-0.39, 0.36};
+  run.history.add(run.result.finalists[0].unit, evaluated);
+  says("");
+  run.history.add(flat(40), evaluated);
+  says(" (the flat surfaces of the search have another finish or drive)");
+  run.history.add(flat(70), evaluated);
+  says(
+      ", though at the coarser level of the search it has mean(modulation) 0.390 where design 01 "
+      "has 0.520, variation(modulation) 0.360 where that has 0.310");
+  FinalDesign& confirmed = run.result.finalists[1];
+  confirmed.unit = flat(70);
+  confirmed.design = run.problem.space().design(confirmed.unit);
+  says(
+      ", though as a design of its own, not on the skins of the other, it has mean(modulation) "
+      "0.450 ± 0.013 where design 01 has 0.500 ± 0.013, variation(modulation) 0.400 ± 0.023 where "
+      "that has 0.300 ± 0.023");
+}
+
 // A recommendation whose place does not hold names where, and what holds instead.
 TEST(BuildSheet, SaysWhyAPlaceDoesNotHoldAndTheAlternative) {
   Searched run;
@@ -316,10 +438,20 @@ TEST(BuildSheet, SaysWhyAPlaceDoesNotHoldAndTheAlternative) {
   run.result.stability.variants[1].beaten_by = {1, std::nullopt};
   run.result.stability.times_on_front = {1, 2};
   EXPECT_NE(as_read(recommendation(run.files()))
-                .find(" Its place does not hold: 1 of 2 checks (smooth: design 02 is better). The "
+                .find(" Its place holds in 1 of 2 checks only (smooth: design 02 is better). The "
                       "alternative that holds in 2 of 2 is design 02 (holes 4 um wide at the top, "
                       "500 nm deep, "
                       "8 um from one to the next in a square array, walls 88 deg steep)."),
+            std::string::npos)
+      << as_read(recommendation(run.files()));
+  // Checks that it loses for one reason are told together, the first three by name.
+  for (const char* name : {"moist", "rough", "a quarter of the droplets", "one pass"}) {
+    run.result.stability.variants.push_back(run.result.stability.variants[1]);
+    run.result.stability.variants.back().name = name;
+  }
+  EXPECT_NE(as_read(recommendation(run.files()))
+                .find(" Its place holds in 1 of 6 checks only (smooth, moist, rough and 2 more: "
+                      "design 02 is better)."),
             std::string::npos)
       << as_read(recommendation(run.files()));
 }
@@ -367,12 +499,14 @@ TEST(BuildSheet, SaysWhatItRestsOn) {
       "humidity under 0.2 N, driven with 200 V (peak) at 5 kHz. On natural skin, not degreased, "
       "with finger \"" +
           run.problem.tasks().front().name +
-          "\" alone, it has mean(modulation) 0.296 in place of 0.500, variation(modulation) 0.627 "
-          "in place of 0.300, a worst modulation of 0.007 in place of 0.250.");
+          "\" alone and at the coarser level of the checks (64 pixels, 8 skins), it has "
+          "mean(modulation) 0.296 in place of 0.500, variation(modulation) 0.627 in place of "
+          "0.300, a worst modulation of 0.007 in place of 0.250.");
   const auto on_natural_skin = [&](const std::string& others) {
     const std::string lead = as_read(recommendation(run.files()));
-    EXPECT_NE(lead.find(" But on natural skin, not degreased (finger \"reference\") its worst "
-                        "modulation is 0.007, which people do not notice, " +
+    EXPECT_NE(lead.find(" But on natural skin, not degreased (finger \"reference\" alone, at the "
+                        "coarser level of the checks) its worst modulation is 0.007, which people "
+                        "do not notice, " +
                         others + "."),
               std::string::npos)
         << lead;
@@ -381,9 +515,9 @@ TEST(BuildSheet, SaysWhatItRestsOn) {
   s.variants[1].worst[1] = 0.25;
   on_natural_skin("a dominated design has 0.250 there");
   EXPECT_EQ(as_read(said[2]),
-            "In no ±: choices of the model (2 of them, on finger \"reference\"; the table \"Does "
-            "the order "
-            "hold?\" has each): over these it has mean(modulation) 0.252 to 0.922, "
+            "In no ±: choices of the model (2 of them, on finger \"reference\" at the coarser "
+            "level of the checks; the table \"Does the order hold?\" has each): over these it has "
+            "mean(modulation) 0.252 to 0.922, "
             "variation(modulation) 0.200 to 0.400.");
   EXPECT_EQ(as_read(said[3]),
             "The limits leave these tolerances, one dimension at a time: depth at most 20 nm up "
@@ -392,6 +526,10 @@ TEST(BuildSheet, SaysWhatItRestsOn) {
             "At its worst, over fingers and humidity, the modulation is 0.053: below 0.2, the "
             "least relative difference of friction that people notice (Fehlberg 2022), it is not "
             "felt there.");
+  run.result.confirmed_with.grid = 64, run.result.confirmed_with.skins = 8;
+  EXPECT_NE(as_read(grounds(run.files())[1])
+                .find("alone and at the level of the checks (64 pixels, 8 skins), it has"),
+            std::string::npos);
   s.variants[1].values[0].clear();
   s.variants[1].unanswered = {"reference, 75 % RH: pull-in: no equilibrium", ""};
   EXPECT_NE(
@@ -602,6 +740,26 @@ TEST(BuildSheet, LeavesOutTheNumbersOfAnotherKind) {
   EXPECT_NEAR(height->value, 546e-9, 1e-15);
   ASSERT_TRUE(height->down);
   EXPECT_EQ(height->down->most, 30e-9);
+}
+
+TEST(YieldText, AnErrorThatPassesAnEndIsTheRangeThatItLeaves) {
+  EXPECT_EQ(share_text(0.121, 0.004), "12.1 ± 0.4 %");
+  EXPECT_EQ(share_text(1, 0.396), "60.4 to 100 %");
+  EXPECT_EQ(share_text(0.003, 0.02), "0 to 2.3 %");
+  EXPECT_EQ(share_text(0.4, 0.7), "0 to 100 %");
+  // What is shown as nothing passes no end.
+  EXPECT_EQ(share_text(1, 0.0001), "100.0 ± 0.0 %");
+  EXPECT_EQ(share_text(0, 0), "0.0 ± 0.0 %");
+  Searched run;
+  run.result.yield.emplace().now = {1, 0.396};
+  EXPECT_EQ(as_read(yield_sentence(run.files())),
+            " Of the plates that scatter as stated 60.4 to 100 % keep every limit.");
+  EXPECT_TRUE(
+      as_read(yield_text(run.files())).starts_with("Yield: 60.4 to 100 % of the plates keep"));
+  run.result.yield->now = {0.9, 0.01};
+  EXPECT_EQ(as_read(yield_sentence(run.files())),
+            " Of the plates that scatter as stated 90.0 ± 1.0 % keep every limit.");
+  EXPECT_EQ(yield_json(run.files())["se"], 0.01);
 }
 
 TEST(YieldText, AToleranceOfACompetingKindHasItsUnit) {
