@@ -17,6 +17,7 @@
 #include "base/folder.h"
 #include "base/random.h"
 #include "base/text.h"
+#include "base/units.h"
 #include "config/describe.h"
 #include "config/reader.h"
 #include "design/study.h"
@@ -129,6 +130,11 @@ std::vector<Treatment> treatments_of(const WaferList& list, std::vector<std::str
     for (Unnamed& d : designs_behind(list.designs_of, others)) {
       const std::string name = free_name(++number, names);
       if (!d.note.empty()) notes.push_back(name + ": " + d.note);
+      // A run or a study may say that a surface is flat by a kind of texture without depth.
+      if (!facts(d.design.texture).relief.present) {
+        d.design.texture = Texture{};
+        notes.push_back(name + " has no texture: its fields are flat, as those of FLAT are");
+      }
       out.push_back({name, std::move(d.design), 0});
     }
     notes.insert(notes.end(), others.begin(), others.end());
@@ -348,6 +354,28 @@ void check_shape(const WaferShape& shape) {
   }
 }
 
+// A condition that stands twice would give each field two equal lines of the manifest.
+void repeated_conditions(Document& document, const WaferConditions& conditions) {
+  const auto once = [&](const std::string& key, const std::vector<std::string>& values) {
+    std::set<std::string> known;
+    for (const std::string& value : values) {
+      if (!known.insert(value).second)
+        document.problem_at("conditions." + key, value + " stands twice: name it once");
+    }
+  };
+  const auto shown = [](const std::vector<double>& values, const char* unit) {
+    std::vector<std::string> out;
+    for (const double v : values)
+      out.push_back(fmt::format("{:.12g} {}", v / find_unit(unit)->to_si, unit));
+    return out;
+  };
+  once("load", shown(conditions.load, "N"));
+  once("humidity", shown(conditions.humidity, "%"));
+  once("voltage", shown(conditions.voltage, "V"));
+  once("frequency", shown(conditions.frequency, "Hz"));
+  once("states", split(conditions.states, ','));
+}
+
 // A list of its own, where the file has one of its keys; else an empty one over the file.
 WaferList read_list(const std::string& given, const std::vector<std::string>& overrides) {
   const std::string path = own_or_shipped(given);
@@ -361,6 +389,7 @@ WaferList read_list(const std::string& given, const std::vector<std::string>& ov
   Document document = own ? load_document(path, overrides, design_roots())
                           : parse_document("schema_version = 1", path, overrides);
   read_section(document, "", list);
+  repeated_conditions(document, list.conditions);
   finish(document);
   if (!own) list.designs_of = path;
   if (own && !list.designs_of.empty()) {

@@ -466,9 +466,10 @@ class Drawing {
   }
   void name_layers() {
     for (const WaferLevel& level : out_.levels) {
-      std::string label = fmt::format(
-          "tone: polygons are deep, what is around them is high; etch {:.6g} nm; designs {}",
-          1e9 * level.etch, join_names(level.designs, " "));
+      std::string label = "tone: polygons are deep, what is around them is high";
+      if (!level.designs.empty())
+        label += fmt::format("; etch {:.6g} nm; designs {}", 1e9 * level.etch,
+                             join_names(level.designs, " "));
       if (level.number == 1) label += "; labels and marks";
       constexpr std::size_t kMostLetters = 500;  // of a GDSII text
       if (label.size() > kMostLetters) label = label.substr(0, kMostLetters - 3) + "...";

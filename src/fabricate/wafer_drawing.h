@@ -13,7 +13,7 @@ namespace papilla::fabricate {
 // A mask: everything on it is etched as deep.
 struct WaferLevel {
   int number = 1;                    // of its layer
-  double etch = 0;                   // [m] into the master
+  double etch = 0;                   // [m] into the master; 0: labels and marks alone
   std::vector<std::string> designs;  // names of those that it shapes
 };
 

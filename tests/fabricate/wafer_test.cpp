@@ -1,4 +1,6 @@
 // Test wafers: what stands where, what is drawn, what is to be measured.
+#include "report/wafer.h"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -104,6 +106,32 @@ TEST(Wafer, HasTheDesignOfARunThatIsBuiltByItsSheet) {
       depths.push_back(std::round(1e10 * array->depth));
   }
   EXPECT_EQ(depths, (std::vector<double>{3513, 5000}));
+}
+
+// A run says that a surface is flat by holes without depth: no shape of no size is put on a wafer.
+TEST(Wafer, HasNoShapeOfADesignWithoutRelief) {
+  const Workplace place;
+  std::filesystem::create_directories(place.path() / "run/best");
+  for (const char* file : {"run/best/design.toml", "run/best/build.toml"})
+    place.write(file, array_design("hole_array",
+                                   "period = \"6 um\"\ndiameter = \"3 um\"\ndepth = \"0 nm\"\n"));
+  const WaferPlan plan = plan_wafer((place.path() / "run").string());
+  ASSERT_EQ(plan.treatments.size(), 2u);
+  EXPECT_EQ(plan.treatments[0].name, "D01");
+  EXPECT_EQ(plan.treatments[0].design.texture, Texture{});
+  EXPECT_EQ(plan.notes, std::vector<std::string>{
+                            "D01 has no texture: its fields are flat, as those of FLAT are"});
+  const WaferDrawing drawing = draw_wafer(plan);
+  ASSERT_EQ(drawing.levels.size(), 1u);
+  EXPECT_TRUE(drawing.levels[0].designs.empty());
+  ASSERT_EQ(drawing.layout.layers.size(), 1u);
+  EXPECT_EQ(drawing.layout.layers[0].label,
+            "tone: polygons are deep, what is around them is high; labels and marks");
+  for (const LayoutCell& cell : drawing.layout.cells)
+    EXPECT_FALSE(cell.name.starts_with("DESIGN_")) << cell.name;
+  const std::string said = report::wafer_text(plan, drawing, {}, {});
+  EXPECT_NE(said.find("mask 1: labels and marks alone\n"), std::string::npos) << said;
+  EXPECT_EQ(said.find("hole_array"), std::string::npos) << said;
 }
 
 TEST(Wafer, IsTheSameForASeedAndAnotherForAnother) {
@@ -268,14 +296,18 @@ TEST(Wafer, HasAMaskForEachDepthOfWhichAllPolygonsAreDeep) {
 TEST(Wafer, AStudyGivesItsDesignAndTheEndsOfItsTexture) {
   const WaferPlan plan = plan_wafer(PAPILLA_DESIGNS_DIR "/m3_glass/conformal.toml");
   std::set<double> depths;
+  bool flat = false;
   for (const Treatment& t : plan.treatments) {
     if (const auto* holes = std::get_if<HoleArray>(&t.design.texture.kind))
       depths.insert(holes->depth);
+    else
+      flat = flat || t.name != "FLAT";
     EXPECT_EQ(t.design.surface, plan.treatments[0].design.surface) << t.name;
   }
-  // As written, and both ends: 0 to 1 um.
-  EXPECT_EQ(depths.size(), 3u);
-  EXPECT_EQ(*depths.begin(), 0);
+  // As written, and both ends: 0, which is flat, to 1 um.
+  EXPECT_TRUE(flat);
+  EXPECT_EQ(depths.size(), 2u);
+  EXPECT_NEAR(*depths.begin(), 350e-9, 1e-15);
   EXPECT_NEAR(*depths.rbegin(), 1e-6, 1e-15);
 }
 
@@ -384,11 +416,18 @@ TEST(Wafer, SaysAtWhichVoltagesAFilmBreaksDown) {
   const WaferPlan plan =
       plan_of(place, "", "voltage = [\"0 V\", \"700 V\"]\nhumidity = [\"15 %\", \"75 %\"]\n");
   Expected sound, broken, worse;
-  sound.oxide_margin = kInfinity, broken.oxide_margin = 0.98, worse.oxide_margin = 0.95;
+  broken.oxide_margin = 0.98, worse.oxide_margin = 0.95;
   EXPECT_EQ(breakdown_lines(plan, {{sound, sound, broken, worse}, {sound, sound, sound, sound}}),
             (std::vector<std::string>{
                 "H1 at 700 V: the dielectric breaks down: the field in a layer is 1.05 times its "
                 "strength, at most 665 V hold; no modulation is expected"}));
+  // What is solved at two humidities holds, but not what a bridge would put on the film.
+  Expected bridged;
+  bridged.oxide_margin = 1.1, bridged.bridged_margin = 0.8;
+  EXPECT_EQ(breakdown_lines(plan, {{sound, sound, sound, bridged}, {sound, sound, sound, sound}}),
+            (std::vector<std::string>{
+                "H1 at 700 V: the dielectric is at risk: under a bridge or a contact on its "
+                "thinnest place the field is 1.25 times its strength, at most 560 V hold"}));
 }
 
 TEST(Wafer, CountsTheDesignsOfAListAndOfAStudyTogether) {
@@ -483,6 +522,26 @@ TEST(Wafer, RefusesWhatHasNoMaskWithTheWayOut) {
   says(refused(holes, "[wafer]\ncolumns = 1\nrows = 2\n"), "fewer repeats");
   says(refused(holes, "[wafer]\nrepeat = 2\n"), "repeats");
   says(refused(holes, "[conditions]\nload = [\"-1 N\"]\n"), "load");
+}
+
+// 15 % and .15 are one humidity however they are written; falling ones are a list as good as
+// another.
+TEST(Wafer, RefusesAConditionThatStandsTwice) {
+  const auto refused = [](const std::string& conditions) {
+    const Workplace place;
+    write_wafer_list(place, "[conditions]\n" + conditions + "\n");
+    return keyed_refusal_of([&] { plan_wafer((place.path() / "list.toml").string()); });
+  };
+  EXPECT_EQ(refused("humidity = [\"15 %\", \"75 %\", \"15.0 %\"]"),
+            "conditions.humidity: 15 % stands twice: name it once\n");
+  EXPECT_EQ(refused("load = [\"0.2 N\", \"200 mN\"]"),
+            "conditions.load: 0.2 N stands twice: name it once\n");
+  EXPECT_EQ(refused("voltage = [\"0 V\", \"0 V\"]\nstates = \"clean, clean\""),
+            "conditions.voltage: 0 V stands twice: name it once\n"
+            "conditions.states: clean stands twice: name it once\n");
+  EXPECT_EQ(refused("frequency = [\"5 kHz\", \"5000 Hz\"]"),
+            "conditions.frequency: 5000 Hz stands twice: name it once\n");
+  EXPECT_EQ(refused("humidity = [\"75 %\", \"15 %\"]"), "");
 }
 
 }  // namespace
