@@ -1,6 +1,7 @@
 // What belief leaves of the predictions.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "claims/members.h"
 #include "claims/predict.h"
@@ -28,24 +29,6 @@ const Prediction* same(const std::vector<Prediction>& list, const Prediction& p)
     return other.id == p.id && other.condition == p.condition && other.quantity == p.quantity;
   });
   return found == list.end() ? nullptr : &*found;
-}
-
-// What each member moves a number by, from the mean of all, on each skin; none where skins are not
-// known.
-StepSamples moves_of(const std::vector<double>& weights, StepSamples samples) {
-  const std::size_t skins = samples.empty() ? 0 : samples.front().size();
-  double total = 0;
-  std::vector<double> mean(skins, 0);
-  for (std::size_t m = 0; m < samples.size(); ++m) {
-    if (samples[m].size() != skins) return {};
-    total += weights[m];
-    for (std::size_t k = 0; k < skins; ++k) mean[k] += weights[m] * samples[m][k];
-  }
-  for (std::size_t m = 0; m < samples.size(); ++m) {
-    for (std::size_t k = 0; k < skins; ++k)
-      samples[m][k] = std::sqrt(weights[m]) * (samples[m][k] - mean[k] / total);
-  }
-  return samples;
 }
 
 }  // namespace
@@ -77,7 +60,8 @@ void take_model_parts(std::vector<Prediction>& predictions, const Belief& belief
     }
     p.silent = p.members - static_cast<int>(values.size());
     if (p.silent == 0 || values.size() >= kLeastMembers)
-      p.model = deviation_over(weights, values) * meant_part(moves_of(weights, samples));
+      p.model = deviation_over(weights, values) *
+                meant_part(moves_from_mean(weights, std::move(samples)));
   }
 }
 

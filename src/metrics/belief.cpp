@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "metrics/metrics.h"
 #include "numerics/statistics.h"
@@ -64,7 +65,7 @@ std::optional<BeliefValues> belief_values(const BeliefRuns& runs, const Number& 
   if (!own) return std::nullopt;
   const double at = value.value_or(own->all);
   BeliefValues out;
-  std::vector<double> mean;
+  StepSamples samples;
   for (const BeliefRun& m : runs.members) {
     const auto there = readings(m.run, number);
     if (!there || there->without.size() != own->without.size()) return std::nullopt;
@@ -73,14 +74,9 @@ std::optional<BeliefValues> belief_values(const BeliefRuns& runs, const Number& 
       without.push_back(moved(at, own->without[k], there->without[k], keeps_sign));
     out.weights.push_back(m.weight);
     out.values.push_back(moved(at, own->all, there->all, keeps_sign));
-    out.moves.push_back(jackknife_samples(out.values.back(), without));
-    mean.resize(out.moves.back().size(), 0);
-    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += m.weight * out.moves.back()[k];
+    samples.push_back(jackknife_samples(out.values.back(), without));
   }
-  for (std::size_t m = 0; m < out.moves.size(); ++m) {
-    for (std::size_t k = 0; k < mean.size(); ++k)
-      out.moves[m][k] = std::sqrt(out.weights[m]) * (out.moves[m][k] - mean[k]);
-  }
+  out.moves = moves_from_mean(out.weights, std::move(samples));
   return out;
 }
 

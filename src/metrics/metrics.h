@@ -44,6 +44,10 @@ std::optional<StepSamples> step_samples(
 double step_error(const StepSamples& samples);
 // What part of each move that is, 0 to 1; 1 where nothing moves.
 double meant_part(const StepSamples& samples);
+// Of values of members, a sample per skin: how far each lies from their weighted mean, times the
+// root of its weight; the weights are shares of their sum. Empty where members have not the same
+// skins.
+StepSamples moves_from_mean(const std::vector<double>& weights, StepSamples samples);
 
 // A number as a member of belief has it: `own` and `there` are of the scene as it is and of the
 // member, both on few skins. A number that keeps its sign is moved in proportion, by no more than

@@ -138,6 +138,22 @@ double step_error(const StepSamples& samples) {
 
 double meant_part(const StepSamples& samples) { return part_of(squares_of(samples), samples); }
 
+StepSamples moves_from_mean(const std::vector<double>& weights, StepSamples samples) {
+  const std::size_t skins = samples.empty() ? 0 : samples.front().size();
+  double total = 0;
+  std::vector<double> mean(skins, 0);
+  for (std::size_t m = 0; m < samples.size(); ++m) {
+    if (samples[m].size() != skins) return {};
+    total += weights[m];
+    for (std::size_t k = 0; k < skins; ++k) mean[k] += weights[m] * samples[m][k];
+  }
+  for (std::size_t m = 0; m < samples.size(); ++m) {
+    for (std::size_t k = 0; k < skins; ++k)
+      samples[m][k] = std::sqrt(weights[m]) * (samples[m][k] - mean[k] / total);
+  }
+  return samples;
+}
+
 std::optional<SummaryValue> summarise(Summary summary, const Metric& metric,
                                       const Response& response) {
   const MetricInfo& info = info_of(metric);
