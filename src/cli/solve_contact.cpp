@@ -156,14 +156,15 @@ void add_solve_contact(Command solve_command, Context& context) {
                   "Statistics of a stated spectrum over seeds, e.g. "
                   "designs/physics/rough_contact.toml")
       .type_name("CASE.toml");
-  c->of_case = {add_set_option(command, c->overrides),
-                command.add_option("--threads", c->threads, "Of a case; a surface takes one")
-                    .range(1, 1024)
-                    .show_default(),
-                command
-                    .add_option("--out", c->out,
-                                "Of a case: also the distributions of gaps and pressures as tables")
-                    .type_name("DIR")};
+  c->of_case = {
+      add_set_option(command, c->overrides),
+      command.add_option("--jobs,--threads", c->threads, "Threads of a case; a surface takes one")
+          .range(1, 1024)
+          .show_default(),
+      command
+          .add_option("--out", c->out,
+                      "Of a case: also the distributions of gaps and pressures as tables")
+          .type_name("DIR")};
   command.add_option("--height", c->scan.file,
                      "Or a heightmap (.npy .gsf .exr .tif .x3p), high touches first");
   c->of_height = add_scan_options(command, c->scan);

@@ -158,6 +158,22 @@ TEST(Program, ManualPagesDescribeEveryCommandWithExamplesThatItTakes) {
   EXPECT_GE(pages, 17);
 }
 
+TEST(Program, HelpOfAPieceOfPhysicsHasItsOwnExamples) {
+  const Workplace place;
+  for (const std::string piece :
+       {"bridge", "contact", "drive", "droplets", "field", "haze", "persson"}) {
+    const std::string help = place.run("solve " + piece + " --help").out;
+    const std::string examples = help.substr(std::min(help.find("Examples:"), help.size()));
+    int found = 0;
+    for (std::size_t at = 0; (at = examples.find("papilla solve ", at)) != std::string::npos;) {
+      at += std::string("papilla solve ").size();
+      EXPECT_EQ(examples.substr(at, piece.size() + 1), piece + " ") << examples;
+      ++found;
+    }
+    EXPECT_GT(found, 0) << piece;
+  }
+}
+
 TEST(Describe, KnowsTheSectionsOfStudiesAndTheWordsOfTheField) {
   const Workplace place;
   for (const char* section : {"search", "objective", "design_space", "constraints", "population",
@@ -599,7 +615,7 @@ TEST(SolveContact, HelpSaysWordsAndDefaultsOfItsOptions) {
   const Workplace place;
   const std::string help = place.run("solve contact --help").out;
   for (const char* said : {"--method TEXT:{auto,dense,sparse}=auto", "--hardness TEXT=0 Pa",
-                           "--threads INT:INT in [1 - 1024]=1", "[1 - 1000000]=1000"})
+                           "--jobs,--threads INT:INT in [1 - 1024]=1", "[1 - 1000000]=1000"})
     EXPECT_NE(help.find(said), std::string::npos) << said << "\n" << help;
   EXPECT_EQ(help.find("->"), std::string::npos) << help;
 }
@@ -756,7 +772,7 @@ TEST(Program, RefusesOptionsThatItWouldNotObey) {
            {"solve droplets --gap g.npy --placements 4 --out drops.png",
             "--out draws one placement"},
            {"solve droplets --gap g.npy --spread 0.2", "--spread is of --placements"},
-           {"solve contact --height g.npy --threads 2", "--threads is of a case of statistics"},
+           {"solve contact --height g.npy --threads 2", "--jobs is of a case of statistics"},
            {"solve contact --height g.npy --out d", "--out is of a case of statistics"},
            {"solve contact --height g.npy --set a=1", "--set is of a case of statistics"},
            {"solve contact --height g.npy --modulus 1MPa --bulk-modulus 1MPa",
