@@ -95,7 +95,9 @@ TEST(ReportOfOneRun, VerifyJudgesTheBestDesignAndTheFront) {
   const Outcome two = place.run("verify run --geometry");
   EXPECT_EQ(two.status, 2);  // [view] stands there twice
   std::string other = design;
-  other.replace(other.find("\nperiod = "), 10, "\nperiod = \"9 um\" # ");
+  const std::string key = "\ncontact_angle = ";  // of a flat surface too
+  ASSERT_NE(other.find(key), std::string::npos) << other;
+  other.replace(other.find(key), key.size(), key + "\"31 deg\" # ");
   place.write("run/best/build.toml", other);
   const Outcome changed = place.run("verify run --geometry");
   EXPECT_EQ(changed.status, 1);
