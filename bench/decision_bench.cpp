@@ -109,7 +109,7 @@ std::vector<FinalDesign> judged(const StudyProblem& problem, const std::vector<P
     few.threads = 0;
     std::vector<TaskAnswer> members;
     for (std::size_t t = 0; t < problem.nominal_tasks(); ++t)
-      members.push_back(evaluate_steps(problem, f.design, t, few));
+      members.push_back(evaluate_steps(problem, f.design, t, {few}));
     add_members(problem, members, f);
     out.push_back(std::move(f));
   }

@@ -20,8 +20,6 @@ if(BUILD_SHARED_LIBS)  # who links the static library needs the libraries behind
   file(RELATIVE_PATH PAPILLA_PC_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
   configure_file(cmake/papilla.pc.in papilla.pc @ONLY)
   install(FILES ${CMAKE_BINARY_DIR}/papilla.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
-else()
-  install(FILES cmake/dependencies.cmake DESTINATION ${package})
 endif()
 
 # Made by the program itself from its own tables: completion of two shells and the manual pages.

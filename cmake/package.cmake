@@ -14,7 +14,9 @@ foreach(component papilla python doc)
   set(name_doc papilla-doc)
   install(FILES ${debian}/copyright ${changelog}.gz DESTINATION ${doc}/${name_${component}} COMPONENT ${component})
 endforeach()
-install(DIRECTORY docs/ DESTINATION ${doc}/papilla-doc COMPONENT doc)
+# As in the source, so that the links between the pages hold, to the results that they show too.
+install(DIRECTORY docs DESTINATION ${doc}/papilla-doc COMPONENT doc)
+install(DIRECTORY results/accuracy results/gallery DESTINATION ${doc}/papilla-doc/results COMPONENT doc)
 install(DIRECTORY python/examples DESTINATION ${doc}/papilla-doc COMPONENT doc)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${doc}/papilla-doc COMPONENT doc)
 install(CODE "

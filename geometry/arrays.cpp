@@ -31,7 +31,8 @@ double lattice_distance(Lattice lattice, double period, double x, double y) {
 
 FabricationMargins array_margins(const FeatureArray& a, const WallSection& wall) {
   const double gap = a.period - a.width;
-  const double hole = (a.deep ? a.width : gap) - 2 * wall.run();  // at its floor
+  // At its floor; nothing is left of one whose walls meet, which problems() refuses.
+  const double hole = std::max(0.0, (a.deep ? a.width : gap) - 2 * wall.run());
   const double land = a.deep ? gap : a.width;
   return {hole, land, wall.depth / std::min(hole, land)};
 }
@@ -64,6 +65,9 @@ std::vector<Terrace> terraces_of(const FeatureArray& a, const WallSection& wall)
 
 double WallSection::run() const { return depth / std::tan(wall_angle); }
 double WallSection::reach() const { return run() + 2 * edge_radius; }
+double WallSection::steepest() const {
+  return std::min(wall_angle, std::acos(std::max(1 - depth / edge_radius, -1.0)));
+}
 
 void wall_fields(FieldVisitor& v, double& wall_angle, double& edge_radius) {
   v.number({"wall_angle", "deg", 1, 90, "angle of the wall from the land", Source::Estimate,
@@ -132,6 +136,7 @@ TextureFacts array_facts(FeatureArray array, const WallSection& wall) {
           .margins = relief ? array_margins(array, wall) : FabricationMargins::none(),
           .open_share = relief ? share : 0.0,
           .rim_radius = relief ? std::optional(wall.edge_radius) : std::nullopt,
+          .steepest = relief ? wall.steepest() : 0.0,
           .outline = array,
           .scans = kNoScans,
           .rough = kNoRoughness,
@@ -146,12 +151,18 @@ TextureProblems array_problems(double period, double width, const char* width_ke
                        1e6 * width, 1e6 * period)}};
 }
 
-void add_wall_problem(const WallSection& wall, double width, TextureProblems& out) {
-  if (wall.depth <= 0 || wall.run() <= 0.5 * width) return;
-  out.emplace_back("wall_angle",
-                   fmt::format("walls of {:.4g} deg meet before the depth of {:.4g} nm is reached; "
-                               "make them steeper or the feature shallower",
-                               wall.wall_angle * 180 / kPi, 1e9 * wall.depth));
+void add_wall_problem(const WallSection& wall, double width, const char* depth_key,
+                      TextureProblems& out) {
+  constexpr double kRounding = 1e-9;  // of lengths: walls may touch
+  if (wall.depth <= 0 || width <= 0 || wall.run() <= 0.5 * width * (1 + kRounding)) return;
+  // Both as far as they may go, rounded to the side that is allowed.
+  const double steep = std::ceil(100 * std::atan2(wall.depth, 0.5 * width) * 180 / kPi) / 100,
+               shallow = std::floor(1e10 * 0.5 * width * std::tan(wall.wall_angle) + 1e-6) / 10;
+  out.emplace_back("wall_angle", fmt::format("walls of {:.4g} deg meet before the {} of {:.4g} nm "
+                                             "is reached; make them {:.4g} deg or steeper, or the "
+                                             "{} {:.6g} nm or less",
+                                             wall.wall_angle * 180 / kPi, depth_key,
+                                             1e9 * wall.depth, steep, depth_key, shallow));
 }
 
 void add_rim_problem(const WallSection& wall, double land, TextureProblems& out) {

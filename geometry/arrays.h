@@ -15,6 +15,8 @@ struct WallSection {
 
   double run() const;    // lateral extent of the wall [m]
   double reach() const;  // of the wall and its rim [m]
+  // Angle from the land [rad]: that of the wall, or where the floor cuts a rim as large.
+  double steepest() const;
 };
 
 inline constexpr double kSteepWall = 1.5358897417550099;  // 88 deg from the land
@@ -29,10 +31,12 @@ Heightmap round_features(const FeatureArray& array, const WallSection& wall, con
 double feature_share(const FeatureArray& array);  // of the area, inside the features
 TextureFacts array_facts(FeatureArray array, const WallSection& wall);
 
-// Features that overlap, walls that meet before the depth is reached, and rims that leave nothing
-// of the narrowest land between two edges.
+// Features that overlap, walls that meet before the depth is reached (those of a hole, the feet of
+// neighbouring pillars; `width` is from edge to edge at the land or at the top, `depth_key` the key
+// of the depth), and rims that leave nothing of the narrowest land between two edges.
 TextureProblems array_problems(double period, double width, const char* width_key);
-void add_wall_problem(const WallSection& wall, double width, TextureProblems& out);
+void add_wall_problem(const WallSection& wall, double width, const char* depth_key,
+                      TextureProblems& out);
 void add_rim_problem(const WallSection& wall, double land, TextureProblems& out);
 
 }  // namespace papilla::geometry

@@ -61,6 +61,8 @@ enum class Lattice { Square, Hexagonal };
 // Distance of neighbours x, and height y of the rectangle that repeats [m].
 struct UnitCell {
   double x, y;
+
+  bool operator==(const UnitCell&) const = default;
 };
 
 // Side of the square that is simulated where nothing repeats [m].
@@ -126,8 +128,11 @@ struct TextureFacts {
   Stated<FabricationMargins> margins;
   Stated<std::optional<double>> open_share;  // projected share below half the depth
   Stated<std::optional<double>> rim_radius;  // least radius of convex rims [m]; none: no rims
-  Stated<Outline> outline;                   // of what is deep, at any depth of it
-  Stated<std::vector<ScanSource>> scans;     // the measured maps that it is made of
+  // Angle of its steepest slope from the land [rad]; none where heights are known by their
+  // statistics or by a file alone.
+  Stated<std::optional<double>> steepest;
+  Stated<Outline> outline;                // of what is deep, at any depth of it
+  Stated<std::vector<ScanSource>> scans;  // the measured maps that it is made of
   Stated<std::vector<RoughScale>> rough;  // all of its heights, where they are Gaussian; else none
   Stated<bool> directional;  // made along one direction: grooves, crests; of a scan not judged
   Stated<bool> quick_look;   // optics take a millisecond, whatever the numbers of this kind are

@@ -14,6 +14,7 @@ TextureFacts gradual_facts(const GradualProfile& p) {
                             : FabricationMargins::none(),
           .open_share = relief ? static_cast<double>(p.open_share) : 0.0,
           .rim_radius = relief ? std::optional<double>(p.rim_radius) : std::nullopt,
+          .steepest = relief ? static_cast<double>(p.steepest) : 0.0,
           .outline = Contours{},
           .scans = kNoScans,
           .rough = kNoRoughness,

@@ -14,6 +14,7 @@ struct GradualProfile {
   Stated<double> hole, land;  // smallest widths at half the depth [m]
   Stated<double> open_share;
   Stated<double> rim_radius;  // least radius of what is convex [m]
+  Stated<double> steepest;    // angle of its steepest slope [rad]
   Stated<bool> directional;
 };
 TextureFacts gradual_facts(const GradualProfile& profile);

@@ -101,20 +101,18 @@ Heightmap periodic_cut(const Heightmap& source, const Grid& grid, double x0, dou
   return out;
 }
 
-// Whether so many whole maps make the sides.
-bool whole_maps(const Grid& sides, const Grid& map) {
+// Whether so many whole cells make the sides.
+bool whole_cells(const Grid& sides, const UnitCell& cell) {
   const auto whole = [](double times) {
     return times > 0.5 && std::abs(times - std::round(times)) < 1e-6;
   };
-  return whole(sides.lx / map.lx) && whole(sides.ly / map.ly);
+  return whole(sides.lx / cell.x) && whole(sides.ly / cell.y);
 }
 
 bool same_pixels(const Grid& a, const Grid& b) {
   return a.nx == b.nx && a.ny == b.ny && std::abs(a.lx - b.lx) < 1e-12 * b.lx &&
          std::abs(a.ly - b.ly) < 1e-12 * b.ly;
 }
-
-constexpr double kSeam = 0.1;  // of a patch's side: the band that is blended
 
 // By a key of the texture, for a stack to name it by the part that has it.
 InputError wrong_key(const std::string& key, std::string message) {
@@ -124,7 +122,7 @@ InputError wrong_key(const std::string& key, std::string message) {
 // A map that does not hold the patch is taken several times where it repeats.
 void require_large_enough(const std::string& file, const Grid& map, double patch, bool repeats) {
   if (map.lx >= patch * (1 - 1e-9) && map.ly >= patch * (1 - 1e-9)) return;
-  if (repeats && whole_maps({map.nx, map.ny, patch, patch}, map)) return;
+  if (repeats && whole_cells({map.nx, map.ny, patch, patch}, {map.lx, map.ly})) return;
   throw wrong_key(
       "patch",
       fmt::format("{}: {:.4g} x {:.4g} um is smaller than the patch of {:.4g} um{}; lower it", file,
@@ -168,6 +166,13 @@ bool too_coarse(const Grid& map, double patch) {
 
 ScanChanges changes_of_map(const ScanSource& source) { return scan_of(source)->changes; }
 
+double largest_patch(const ScanChanges& map) {
+  const double shorter = std::min(map.width, map.height);
+  if (map.as_is || map.repeats) return shorter;
+  constexpr double kStep = 10e-9;  // [m]: a number to read, no wider than there is room for
+  return kStep * std::floor(shorter / (1 + 2 * kSeam) / kStep + 1e-6);
+}
+
 std::vector<MapPlace> places_of_map(const ScanSource& source, double patch) {
   const auto scan = scan_of(source);
   const Grid& whole = scan->map.grid;
@@ -184,8 +189,8 @@ std::vector<MapPlace> places_of_map(const ScanSource& source, double patch) {
   return out;
 }
 
-Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& at,
-                       const Grid& grid) {
+Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& at, const Grid& grid,
+                       const std::optional<UnitCell>& cell) {
   const auto scan = scan_of(source);
   const Grid& whole = scan->map.grid;
   const bool repeats = source.as_is || scan->changes.repeats;
@@ -195,7 +200,22 @@ Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& a
   const auto other = [&](double side) { return std::abs(side / patch - 1) > 1e-9; };
   const bool part = other(grid.lx) || other(grid.ly);
   const bool larger = grid.lx > whole.lx * (1 + 1e-9) || grid.ly > whole.ly * (1 + 1e-9);
-  const bool tiles = (part && source.as_is) || (repeats && larger && whole_maps(grid, whole));
+  // Of a map that is taken as it is the patch, or all of it, is said to be a period.
+  const UnitCell period =
+      cell.value_or(UnitCell{std::min(patch, whole.lx), std::min(patch, whole.ly)});
+  const bool fits =
+      whole_cells(grid, {whole.lx, whole.ly}) || (source.as_is && whole_cells(grid, period));
+  const bool from_corner = source.as_is && (part || cell);
+  if (from_corner && !fits) {
+    throw wrong_key(
+        "patch",
+        fmt::format("{}: as_is says that it repeats after {:.4g} x {:.4g} um, and the {:.4g} x "
+                    "{:.4g} um of the stack that it is a part of are no whole number of them: a "
+                    "step would be left at the border; give the period of the map as its patch, or "
+                    "the other parts a period that divides it",
+                    source.file, 1e6 * period.x, 1e6 * period.y, 1e6 * grid.lx, 1e6 * grid.ly));
+  }
+  const bool tiles = fits && (from_corner || (repeats && larger));
   if (larger && !tiles) {
     throw InputError(fmt::format(
         "{}: {:.4g} x {:.4g} um is smaller than the {:.4g} x {:.4g} um of the stack that it is a "

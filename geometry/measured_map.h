@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/rooms.h"
+#include "geometry/facts.h"
 #include "geometry/heightmap.h"
 #include "geometry/scan.h"
 
@@ -33,6 +35,13 @@ struct MapPlace {
   bool operator==(const MapPlace&) const = default;
 };
 
+// The band along a patch's border that is blended into what lies beyond it, of its side. Eq.
+// geometry.4
+inline constexpr double kSeam = 0.1;
+// The side of the largest square about the middle of a map that leaves room for that, to 10 nm
+// below [m]; of one that repeats by itself its shorter side.
+double largest_patch(const ScanChanges& map);
+
 // Of fewer along its side a patch has no shape.
 inline constexpr double kFewestPixels = 8;
 // Whether a patch [m] holds too few pixels of such a map.
@@ -41,11 +50,12 @@ bool too_coarse(const Grid& map, double patch);
 // The map of the file, levelled, mended and made periodic, resampled on the grid: cut at a place.
 // One that repeats by itself and is asked for other sides than its patch, as a part of a stack or
 // as one of several periods, begins at its corner, as textures do, and is taken as often as it
-// takes. Throws InputError for a map smaller than `patch` [m] that does not repeat to it, for one
-// of which it holds fewer than kFewestPixels a side, for a larger grid that is no whole number of
-// it, and for a place where the patch reaches beyond it.
-Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& at,
-                       const Grid& grid);
+// takes. cell: what repeats within one that is taken as it is, if it is less than the patch. Throws
+// InputError for a map smaller than `patch` [m] that does not repeat to it, for one of which it
+// holds fewer than kFewestPixels a side, for other sides that are no whole number of it, and for a
+// place where the patch reaches beyond it.
+Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& at, const Grid& grid,
+                       const std::optional<UnitCell>& cell = {});
 
 // Places whose patches have no pixel in common and leave room for their seams: two along each side
 // that is long enough, evenly. One, the middle: of a map that is no larger, or repeats by itself.

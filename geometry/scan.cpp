@@ -62,22 +62,11 @@ double rms_along(int places, const Step& step) {
 // rise there; rough scans step by their roughness, which is more than that between neighbours
 // unless neighbours know nothing of each other.
 bool borders_meet(const Heightmap& h) {
-  constexpr double kAlike = 1.5;  // scatter of two rms steps of one surface
-  const int nx = h.grid.nx, ny = h.grid.ny;
-  if (nx < 4 || ny < 4) return false;
+  if (h.grid.nx < 4 || h.grid.ny < 4) return false;
   const double rms = rms_of(h);
-  const auto meet = [&](int places, const auto& z, int last) {
-    const double over = rms_along(places, [&](int i) { return z(0, i) - z(last, i); });
-    const double beside =
-        std::hypot(rms_along(places, [&](int i) { return z(1, i) - z(0, i); }),
-                   rms_along(places, [&](int i) { return z(last, i) - z(last - 1, i); })) /
-        std::sqrt(2.0);
-    return beside < rms && over <= kAlike * beside;
-  };
-  return meet(
-             ny, [&](int ix, int iy) { return h(ix, iy); }, nx - 1) &&
-         meet(
-             nx, [&](int iy, int ix) { return h(ix, iy); }, ny - 1);
+  const std::array<BorderSteps, 2> steps = border_steps(h);
+  return std::all_of(steps.begin(), steps.end(),
+                     [&](const BorderSteps& along) { return along.beside < rms && along.alike(); });
 }
 
 // To a mean of 0 in any case: bands that are blended keep their variance about it.
@@ -174,6 +163,24 @@ std::string share_text(std::size_t part, std::size_t whole) {
 }
 
 }  // namespace
+
+bool BorderSteps::alike() const {
+  constexpr double kAlike = 1.5;  // scatter of two rms steps of one surface
+  return over <= kAlike * beside;
+}
+
+std::array<BorderSteps, 2> border_steps(const Heightmap& h) {
+  const auto steps = [](int places, const auto& z, int last) -> BorderSteps {
+    return {rms_along(places, [&](int i) { return z(0, i) - z(last, i); }),
+            std::hypot(rms_along(places, [&](int i) { return z(1, i) - z(0, i); }),
+                       rms_along(places, [&](int i) { return z(last, i) - z(last - 1, i); })) /
+                std::sqrt(2.0)};
+  };
+  return {steps(
+              h.grid.ny, [&](int ix, int iy) { return h(ix, iy); }, h.grid.nx - 1),
+          steps(
+              h.grid.nx, [&](int iy, int ix) { return h(ix, iy); }, h.grid.ny - 1)};
+}
 
 std::string impossible(const Heightmap& h) {
   constexpr double kMostSteep = 10;  // heights over the width of their map

@@ -2,6 +2,7 @@
 // what was changed, in numbers and in the words that every command says.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 
@@ -48,6 +49,16 @@ struct ScanChanges {
 // Heights that no surface of this size has, in words; empty: possible. They are most likely in
 // another unit, and a simulation of them would take memory without end.
 std::string impossible(const Heightmap& h);
+
+// Root mean square steps of a map that is laid side by side [m]: over the border, from its last
+// column or row to its first, and between the neighbours beside it.
+struct BorderSteps {
+  double over = 0, beside = 0;
+
+  bool alike() const;  // to the scatter of two steps of one surface
+};
+// Along x and along y, of four pixels or more a side.
+std::array<BorderSteps, 2> border_steps(const Heightmap& h);
 
 struct Scan {
   Heightmap map;

@@ -222,17 +222,21 @@ LeastSquaresFit least_squares(const std::vector<FitParameter>& parameters, int r
     const double unit = c.scale(i) * (parameters[i].logarithmic ? f.value : 1);
     f.se = std::isfinite(se[i]) ? se[i] * unit : 0;
     f.data_share = data_share(found.jacobian, c, i);
-    if (options.profile_iterations > 0 && (f.at_bound || options.profiles)) {
-      if (options.note) options.note("profile of " + f.name);
-      const double first = std::isfinite(se[i]) ? quantile * se[i] : kFirstProfileStep;
-      FitProfile profile(solver, c, best, i, quantile * quantile * out.variance_factor,
-                         options.profile_iterations);
-      f.low = c.from(i, profile.end(-1, first, f.low_open));
-      f.high = c.from(i, profile.end(1, first, f.high_open));
-    } else {
-      interval_by_error(c, i, best.x[i], quantile * se[i], f);
-    }
+    interval_by_error(c, i, best.x[i], quantile * se[i], f);
     out.parameters.push_back(f);
+  }
+  out.evaluations = solver.evaluations();
+  if (options.profile_iterations == 0 || (options.walks_profiles && !options.walks_profiles(out)))
+    return out;
+  for (std::size_t i = 0; i < n; ++i) {
+    ParameterFit& f = out.parameters[i];
+    if (!f.at_bound && !options.profiles) continue;
+    if (options.note) options.note("profile of " + f.name);
+    const double first = std::isfinite(se[i]) ? quantile * se[i] : kFirstProfileStep;
+    FitProfile profile(solver, c, best, i, quantile * quantile * out.variance_factor,
+                       options.profile_iterations);
+    f.low = c.from(i, profile.end(-1, first, f.low_open));
+    f.high = c.from(i, profile.end(1, first, f.high_open));
   }
   out.evaluations = solver.evaluations();
   return out;

@@ -29,6 +29,8 @@ enum class ResidualVariance {
   Inflated,   // the same, but never smaller than known
 };
 
+struct LeastSquaresFit;
+
 struct LeastSquaresOptions {
   int iterations = 200;
   // Relative error of the residuals as functions: sets the steps of the differences. 1e-15 for a
@@ -39,6 +41,9 @@ struct LeastSquaresOptions {
   double confidence = 0.95;
   bool profiles = false;  // profile likelihood of every parameter, else only of those at a bound
   int profile_iterations = 30;  // of each refit; 0: no profiles
+  // Given the fit with intervals by standard errors, says whether profiles are walked from it,
+  // which cost many times the descent. Empty: they are.
+  std::function<bool(const LeastSquaresFit&)> walks_profiles{};
   int threads = 1;  // that differences may use; the residual function must then be re-entrant
   std::function<void(const std::string&)> note;  // progress for people; may be empty
 };

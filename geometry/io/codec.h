@@ -26,6 +26,7 @@ struct ImageSpec {
   int width = 0, height = 0, depth = 1;
   std::vector<std::string> channels{""};  // names, where they matter
   Sample sample = Sample::F32;            // in the file
+  bool whole = false;                     // read: the file holds whole numbers of whatever width
   bool compressed = true;                 // to write: zip, or what the format has
   // By the library's names. Doubles stay doubles: Gwyddion ignores floats.
   std::vector<std::pair<std::string, std::variant<int, float, double, std::string>>> attributes{};
@@ -65,7 +66,7 @@ class ImageCodec {
 };
 
 // Version of the classes above: the module of another build is refused.
-constexpr int kCodecInterface = 2;
+constexpr int kCodecInterface = 3;
 
 // Loads the module on the first call. Throws std::runtime_error where it does not load.
 const ImageCodec& image_codec();

@@ -45,11 +45,11 @@ void write_mask_tiff(const std::string& path, const Heightmap& h, Polarity polar
 void write_png(const std::string& path, const Heightmap& h);
 
 // Reads .npy (float64 or float32, either order, metres), .gsf, .exr (channel Y, um with Gwy keys),
-// .tif (float: um; 16-bit: needs our JSON), .png (grey, needs Gwyddion's keys), .x3p, .gwy, .sur,
-// .sdf, and what Gwyddion reads of other instruments where it is installed. width: lateral size in
-// x [m] where the file does not say; 0: the file must say; one that contradicts it is refused.
-// Refuses more than 2^28 pixels, sides out of 1 pm to 1 km, broken files, and heights that are no
-// finite numbers unless they are to be kept.
+// .tif (float: um; 8 or 16 bits: needs our JSON; other whole numbers are refused), .png (grey,
+// needs Gwyddion's keys), .x3p, .gwy, .sur, .sdf, and what Gwyddion reads of other instruments
+// where it is installed. width: lateral size in x [m] where the file does not say; 0: the file must
+// say; one that contradicts it is refused. Refuses more than 2^28 pixels, sides out of 1 pm to 1
+// km, broken files, and heights that are no finite numbers unless they are to be kept.
 enum class NotNumbers { Refused, Kept };
 struct MapAnswer {
   Heightmap map;

@@ -120,13 +120,17 @@ class ImageRows : public HeightRows {
     header_.nx = spec_.width;
     header_.ny = spec_.height;
     read_gwyddion_keys();
-    const bool whole = spec_.sample == Sample::U16 || spec_.sample == Sample::U8;
-    if (const std::string text = own_line(in_->text("ImageDescription")); !text.empty()) {
-      read_description(text);
-    } else if (whole && !read_gwyddion_heights()) {
-      broken(file_, "an integer image without its height scale; use a float image, .gsf or .npy");
+    const bool described = read_description(own_line(in_->text("ImageDescription")));
+    if (spec_.whole) {
+      // The codec gives black as 0 and white as 1. Signed and wider numbers have no black and white
+      // that any writer states: they are levels of an instrument.
+      const bool grey = spec_.sample == Sample::U16 || spec_.sample == Sample::U8;
+      if (!grey || (!described && !read_gwyddion_heights()))
+        broken(file_,
+               "an integer image without its height scale; multiply its levels by the height of "
+               "one, and save a float image in um, a .gsf, or a .npy in m");
+      header_.step = std::abs(scale_) / (spec_.sample == Sample::U16 ? 65535 : 255);
     }
-    if (whole) header_.step = std::abs(scale_) / (spec_.sample == Sample::U16 ? 65535 : 255);
     read_tags(*in_, header_.tag_x, header_.tag_y);
     header_.made = in_->text("Software").starts_with("papilla ");
   }
@@ -179,7 +183,8 @@ class ImageRows : public HeightRows {
     header_.polarity = scale_ >= 0 ? Polarity::WhiteHigh : Polarity::WhiteDeep;
     return true;
   }
-  void read_description(const std::string& text) {
+  // Of whole numbers: whether it says the heights of black and white.
+  bool read_description(const std::string& text) {
     const auto json = nlohmann::json::parse(text, nullptr, false);
     const auto number = [&](const char* key, double& value) {
       const auto it = json.find(key);
@@ -196,11 +201,10 @@ class ImageRows : public HeightRows {
       if (*it == "white-is-high") header_.polarity = Polarity::WhiteHigh;
       if (*it == "white-is-deep") header_.polarity = Polarity::WhiteDeep;
     }
-    if (spec_.sample != Sample::U16) return;
-    if (!number("black_m", black) || !number("white_m", white))
-      broken(file_, "an integer image without its height scale");
+    if (!spec_.whole || !number("black_m", black) || !number("white_m", white)) return false;
     base_ = black;
     scale_ = white - black;
+    return true;
   }
 
   RegularFile file_;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -104,6 +105,15 @@ class PlainRows : public HeightRows {
   std::ifstream file_;
   std::vector<float> singles_;
 };
+
+// As a header of lines can hold it: a line end within would begin another key, and a zero ends the
+// header.
+std::string as_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(),
+      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+  return text;
+}
 
 std::string trimmed(std::string s) {
   while (!s.empty() && s.back() == ' ') s.pop_back();
@@ -232,8 +242,9 @@ void write_gsf(const std::string& path, const Heightmap& h, const FileInfo& info
   std::string header = "Gwyddion Simple Field 1.0\n";
   header += fmt::format(
       "XRes = {}\nYRes = {}\nXReal = {}\nYReal = {}\nXYUnits = m\nZUnits = m\nTitle = {}\n",
-      h.grid.nx, h.grid.ny, h.grid.lx, h.grid.ly, info.title);
-  if (!info.comment.empty()) header += fmt::format("{} = {}\n", kDesignKey, info.comment);
+      h.grid.nx, h.grid.ny, h.grid.lx, h.grid.ly, as_one_line(info.title));
+  if (!info.comment.empty())
+    header += fmt::format("{} = {}\n", kDesignKey, as_one_line(info.comment));
   header.append(4 - header.size() % 4, '\0');
   FileWriter out(path);
   out.append(header);

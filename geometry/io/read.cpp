@@ -87,7 +87,7 @@ MapAnswer read_map(const std::string& name, double width, NotNumbers not_numbers
     throw InputError(
         "cannot read " + path +
         ": the file does not say its lateral size; give it: texture.width of a measured "
-        "texture, the --size or --width of a command");
+        "texture, --size of papilla surface");
   }
   if (std::min(h.grid.lx, h.grid.ly) < 1e-12 || std::max(h.grid.lx, h.grid.ly) > 1e3) {
     throw InputError(

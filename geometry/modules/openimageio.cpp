@@ -51,6 +51,7 @@ class In : public ImageIn {
   In(std::unique_ptr<OIIO::ImageInput> file, const OIIO::ImageSpec& spec)
       : file_(std::move(file)), own_(spec) {
     spec_ = {spec.width, spec.height, spec.depth, {}, sample_of(spec.format)};
+    spec_.whole = !spec.format.is_floating_point();
     for (int c = 0; c < spec.nchannels; ++c) {
       const auto i = static_cast<std::size_t>(c);
       spec_.channels.push_back(i < spec.channelnames.size() ? spec.channelnames[i] : "");

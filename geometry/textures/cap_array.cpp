@@ -25,6 +25,11 @@ double sphere_radius(const CapArray& t) {
   return (square(0.5 * t.diameter) + square(t.depth)) / (2 * t.depth);
 }
 
+// Where the cap meets the land [rad].
+double rim_slope(const CapArray& t) {
+  return t.depth > 0 ? std::asin(std::min(0.5 * t.diameter / sphere_radius(t), 1.0)) : 0;
+}
+
 // Eq. geometry.8: between the plane of the rims and the sphere, at a distance from the axis [m].
 double cap(const CapArray& t, double distance) {
   const double radius = sphere_radius(t);
@@ -46,8 +51,7 @@ void fields(FieldVisitor& v, CapArray& t) {
 Heightmap heights(const CapArray& t, const Grid& grid) {
   if (t.depth == 0) return {grid, std::vector<double>(grid.size())};
   const double sign = t.form == CapArray::Form::Dimples ? -1 : 1;
-  const double slope = std::asin(std::min(0.5 * t.diameter / sphere_radius(t), 1.0));  // of the rim
-  return round_features(discs(t, t.diameter), {t.depth, slope, 0}, grid,
+  return round_features(discs(t, t.diameter), {t.depth, rim_slope(t), 0}, grid,
                         [&](double r, double) { return sign * cap(t, r); });
 }
 
@@ -74,6 +78,7 @@ TextureFacts facts(const CapArray& t) {
        .land = dimples ? t.period - chord : chord,
        .open_share = dimples ? share : 1 - share,
        .rim_radius = dimples ? 0.0 : radius,
+       .steepest = rim_slope(t),
        .directional = false});
 }
 

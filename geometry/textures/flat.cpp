@@ -17,6 +17,7 @@ TextureFacts facts(const Flat&) {
           .margins = FabricationMargins::none(),
           .open_share = 0.0,
           .rim_radius = std::nullopt,
+          .steepest = 0.0,
           .outline = NoOutline{"the surface is flat, there are no outlines to write"},
           .scans = kNoScans,
           .rough = kNoRoughness,

@@ -12,6 +12,7 @@ TextureFacts gaussian_facts(double rms, const std::string& what, std::vector<Rou
           .margins = FabricationMargins::none(),
           .open_share = std::nullopt,
           .rim_radius = std::nullopt,
+          .steepest = rms > 0 ? std::nullopt : std::optional(0.0),
           .outline = NoOutline{what + " has no outline: its heights vary gradually, none of them "
                                       "parts deep from high"},
           .scans = kNoScans,

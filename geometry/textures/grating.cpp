@@ -35,7 +35,7 @@ Heightmap heights(const Grating& t, const Grid& grid) {
 
 TextureProblems problems(const Grating& t) {
   TextureProblems out = array_problems(t.period, t.width, "width");
-  add_wall_problem(wall(t), t.width, out);
+  add_wall_problem(wall(t), t.width, "depth", out);
   add_rim_problem(wall(t), t.period - t.width, out);
   return out;
 }

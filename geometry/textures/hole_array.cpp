@@ -33,7 +33,7 @@ Heightmap heights(const HoleArray& t, const Grid& grid) {
 
 TextureProblems problems(const HoleArray& t) {
   TextureProblems out = array_problems(t.period, t.diameter, "diameter");
-  add_wall_problem(wall(t), t.diameter, out);
+  add_wall_problem(wall(t), t.diameter, "depth", out);
   add_rim_problem(wall(t), t.period - t.diameter, out);
   return out;
 }

@@ -39,7 +39,7 @@ void fields(FieldVisitor& v, Measured3d& t) {
 
 Heightmap heights(const Measured3d& t, const Grid& grid) {
   const ScanSource source = source_of(t);
-  Heightmap out = patch_of_map(source, t.patch, {t.at_x, t.at_y}, grid);
+  Heightmap out = patch_of_map(source, t.patch, {t.at_x, t.at_y}, grid, t.cell);
   // Instruments and arrays have their own zero. Eq. geometry.9
   const double lift = t.top - changes_of_map(source).highest;
   for (double& z : out.z) z += lift;
@@ -54,11 +54,12 @@ TextureProblems problems(const Measured3d& t) {
 // Told without reading the file: a map counts as having relief.
 TextureFacts facts(const Measured3d& t) {
   return {.relief = Relief{true, std::nullopt},
-          .cell = std::nullopt,
+          .cell = t.cell,
           .free_patch = FreePatch{0, t.patch, t.as_is},
           .margins = FabricationMargins::none(),
           .open_share = std::nullopt,
           .rim_radius = std::nullopt,
+          .steepest = std::nullopt,
           .outline = Contours{},
           .scans = std::vector{source_of(t)},
           .rough = kNoRoughness,

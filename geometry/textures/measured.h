@@ -1,6 +1,8 @@
 // A measured heightmap as a texture.
 #pragma once
 
+#include <optional>
+
 #include "base/rooms.h"
 #include "geometry/facts.h"
 
@@ -18,6 +20,8 @@ struct Measured3d {
   double top = 0;             // of its highest place over the untouched land, z = 0 [m]
   double patch = 12e-6;       // side of the square that is simulated
   double at_x = 0, at_y = 0;  // its middle, from the middle of the map [m]
+  // What repeats within the map, where the program that wrote it knows: no key of a design says it.
+  std::optional<UnitCell> cell{};
 
   bool operator==(const Measured3d&) const = default;
 };

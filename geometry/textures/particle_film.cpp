@@ -173,6 +173,8 @@ TextureFacts facts(const ParticleFilm& t) {
           .margins = FabricationMargins::none(),
           .open_share = std::nullopt,
           .rim_radius = std::nullopt,
+          // Upright where the widest circle of a particle lies above the film.
+          .steepest = t.coverage > 0 ? std::acos(std::clamp(2 * t.embedding - 1, 0.0, 1.0)) : 0.0,
           .outline = NoOutline{"a film of particles has no outline: its caps rise gradually from "
                                "the film, and nothing is etched"},
           .scans = kNoScans,

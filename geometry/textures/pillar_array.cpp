@@ -27,9 +27,11 @@ Heightmap heights(const PillarArray& t, const Grid& grid) {
   });
 }
 
-// A pillar widens towards its floor: its own walls never meet, its rims do.
+// A pillar widens towards its floor: its own walls never meet, its rims do, and its feet those of
+// its neighbours, which would leave less than its height.
 TextureProblems problems(const PillarArray& t) {
   TextureProblems out = array_problems(t.period, t.diameter, "diameter");
+  add_wall_problem(wall(t), t.period - t.diameter, "height", out);
   add_rim_problem(wall(t), t.diameter, out);
   return out;
 }

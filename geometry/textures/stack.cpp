@@ -39,13 +39,64 @@ Relief relief_of(Combine combine, const std::vector<TextureFacts>& parts) {
   return known ? Relief::between(planes.low, planes.high) : Relief{present, std::nullopt};
 }
 
-// The longest period: all others divide it (problems() says so otherwise).
-std::optional<UnitCell> cell_of(const std::vector<TextureFacts>& parts) {
-  std::optional<UnitCell> out;
+// Whether so many whole parts make the length.
+bool divides(double part, double length) {
+  return std::abs(length / part - std::round(length / part)) <= 1e-6;
+}
+
+// Whether a part with relief is alike all along y: its cell is as high as what it is combined with.
+bool is_uniform(const Texture& texture, const TextureFacts& known) {
+  const auto* stack = std::get_if<Stack>(&texture.kind);
+  if (!stack) return known.directional;
+  return std::all_of(stack->parts.begin(), stack->parts.end(), [](const Texture& part) {
+    const TextureFacts of = facts(part);
+    return !of.relief.present || is_uniform(part, of);
+  });
+}
+
+// The longest period along either side: all others divide it (problems() says so otherwise). A map
+// that repeats and is whole cells of the lattice of the others makes the cell as large as itself:
+// cut within, it would have a step at the border.
+std::optional<UnitCell> cell_of(const Stack& t, const std::vector<TextureFacts>& parts) {
+  UnitCell out{0, 0};
+  double uniform = 0;  // height where all parts are alike along y
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::optional<UnitCell>& cell = parts[i].cell;
+    if (!cell) continue;
+    out.x = std::max(out.x, cell->x);
+    double& height = is_uniform(t.parts[i], parts[i]) ? uniform : out.y;
+    height = std::max(height, cell->y);
+  }
+  if (out.x == 0) return std::nullopt;
+  if (out.y == 0) out.y = uniform;
   for (const TextureFacts& part : parts) {
-    if (part.cell && (!out || part.cell->x > out->x)) out = part.cell;
+    const FreePatch& map = part.free_patch;
+    if (!part.cell && map.exact && map.repeats && divides(out.x, *map.exact) &&
+        divides(out.y, *map.exact))
+      out = {*map.exact, *map.exact};
   }
   return out;
+}
+
+// The key and the words of a part whose cell is no whole fraction of that of the stack.
+std::optional<std::pair<std::string, std::string>> misfit(Texture part, const TextureFacts& known,
+                                                          const UnitCell& whole) {
+  if (!known.cell) return std::nullopt;
+  const UnitCell& own = *known.cell;
+  if (!divides(own.x, whole.x)) {
+    const double times = whole.x / own.x;
+    return std::pair{
+        "period", fmt::format("{:.8g} um does not divide the largest period of the stack, {:.6g} "
+                              "um; the nearest that do are {:.6g} um and {:.6g} um",
+                              1e6 * own.x, 1e6 * whole.x, 1e6 * whole.x / std::ceil(times),
+                              1e6 * whole.x / std::floor(times))};
+  }
+  if (is_uniform(part, known) || divides(own.y, whole.y)) return std::nullopt;
+  return std::pair{roles(part).lattice ? "lattice" : "period",
+                   fmt::format("its rows repeat after {:.6g} um along y, which does not divide the "
+                               "{:.6g} um of the stack; make all lattices of it square, or all "
+                               "hexagonal",
+                               1e6 * own.y, 1e6 * whole.y)};
 }
 
 FreePatch patch_of(const std::vector<TextureFacts>& parts) {
@@ -54,8 +105,11 @@ FreePatch patch_of(const std::vector<TextureFacts>& parts) {
     const FreePatch& patch = part.free_patch;
     out.least = std::max(out.least, patch.least);
     if (!patch.exact) continue;
+    // Of two that repeat the longer, which the other divides; else what all of them hold.
+    const bool both_repeat = patch.repeats && out.repeats;
+    const double exact = out.exact.value_or(*patch.exact);
     out.repeats = patch.repeats && (out.repeats || !out.exact);
-    out.exact = out.exact ? std::min(*out.exact, *patch.exact) : *patch.exact;
+    out.exact = both_repeat ? std::max(exact, *patch.exact) : std::min(exact, *patch.exact);
   }
   return out;
 }
@@ -76,6 +130,17 @@ std::optional<double> rim_of(const std::vector<TextureFacts>& parts) {
     if (part.rim_radius) least = least ? std::min(*least, *part.rim_radius) : *part.rim_radius;
   }
   return least;
+}
+
+// Slopes add up at worst, or the steepest stays; of parts that state theirs.
+std::optional<double> steepest_of(Combine combine, const std::vector<TextureFacts>& parts) {
+  std::optional<double> slope;
+  for (const TextureFacts& part : parts) {
+    if (!part.steepest) continue;
+    const double of_part = std::tan(*part.steepest), before = slope.value_or(0);
+    slope = combine == Combine::Sum ? before + of_part : std::max(before, of_part);
+  }
+  return slope ? std::optional(std::atan(*slope)) : std::nullopt;
 }
 
 std::vector<ScanSource> scans_of(const std::vector<TextureFacts>& parts) {
@@ -119,7 +184,12 @@ bool Stack::operator==(const Stack& other) const {
 
 void fields(FieldVisitor& v, Stack& t) {
   v.choice({"combine", "how the parts make one surface"}, {"sum", "maximum"}, t.combine);
-  v.list({"parts", "textures to combine"}, t.parts);
+  v.list({"parts",
+          "textures to combine, of square lattices or of hexagonal ones, their periods whole "
+          "fractions of the longest; min_hole, min_wall and aspect_ratio are the worst of the "
+          "parts, each for itself: what the features of two parts leave between them is not in "
+          "them"},
+         t.parts);
 }
 
 Heightmap heights(const Stack& t, const Grid& grid) {
@@ -137,15 +207,14 @@ Heightmap heights(const Stack& t, const Grid& grid) {
 TextureProblems problems(const Stack& t) {
   TextureProblems out;
   if (t.parts.empty()) out.emplace_back("parts", "a stack needs at least one part");
-  const std::optional<UnitCell> largest = cell_of(part_facts(t));
+  const std::vector<TextureFacts> parts = part_facts(t);
+  const std::optional<UnitCell> largest = cell_of(t, parts);
   for (std::size_t i = 0; i < t.parts.size(); ++i) {
     for (auto& [key, message] : problems(t.parts[i]))
       out.emplace_back(fmt::format("parts.{}.{}", i, key), message);
-    const double period = facts(t.parts[i]).period();
-    if (period > 0 && std::abs(largest->x / period - std::round(largest->x / period)) > 1e-6) {
-      out.emplace_back(fmt::format("parts.{}.period", i),
-                       "does not divide the largest period of the stack");
-    }
+    if (!largest) continue;
+    if (const auto why = misfit(t.parts[i], parts[i], *largest))
+      out.emplace_back(fmt::format("parts.{}.{}", i, why->first), why->second);
   }
   return out;
 }
@@ -154,11 +223,12 @@ TextureFacts facts(const Stack& t) {
   const std::vector<TextureFacts> parts = part_facts(t);
   const Relief relief = relief_of(t.combine, parts);
   return {.relief = relief,
-          .cell = relief.present ? cell_of(parts) : std::nullopt,
+          .cell = relief.present ? cell_of(t, parts) : std::nullopt,
           .free_patch = patch_of(parts),
           .margins = margins_of(parts),
           .open_share = std::nullopt,  // the parts overlap
           .rim_radius = rim_of(parts),
+          .steepest = steepest_of(t.combine, parts),
           .outline = outline_of(parts),
           .scans = scans_of(parts),
           .rough = kNoRoughness,

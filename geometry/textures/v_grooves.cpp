@@ -47,6 +47,7 @@ TextureFacts facts(const VGrooves& t) {
                         .land = t.period - 0.5 * t.width,
                         .open_share = 0.5 * t.width / t.period,
                         .rim_radius = 0.0,
+                        .steepest = std::atan(2 * t.depth / t.width),
                         .directional = true});
 }
 

@@ -41,6 +41,8 @@ TextureProblems problems(const Waves&) { return {}; }
 TextureFacts facts(const Waves& t) {
   const bool one = t.directions == Waves::Directions::One;
   const double width = one ? 0.5 * t.period : std::sqrt(0.5) * t.period;  // of stripes, of squares
+  // Of both directions half as steep along each.
+  const double slope = (one ? 0.5 : std::sqrt(0.125)) * t.depth * wave_number(t);
   const double curvature = (one ? 0.5 : 0.25) * t.depth * square(wave_number(t));  // of a crest
   return gradual_facts({.relief = Relief::between(-t.depth, 0),
                         .cell = UnitCell{t.period, t.period},
@@ -48,6 +50,7 @@ TextureFacts facts(const Waves& t) {
                         .land = width,
                         .open_share = 0.5,
                         .rim_radius = 1 / curvature,
+                        .steepest = std::atan(slope),
                         .directional = t.directions == Waves::Directions::One});
 }
 

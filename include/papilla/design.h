@@ -59,8 +59,9 @@ class Design {
   // touches first; all else by `values`. `repeats`: they repeat by themselves and are taken as they
   // are, but for their zero: the highest place is the untouched land; one period is enough, and is
   // pressed as often side by side as textures of that period are. Else they are levelled, mended
-  // and made periodic, as scans are, and refused below 3 um. They lie in a file that toml() names
-  // and that is there for as long as a design of them. Throws InputError.
+  // and made periodic, as scans are: of the middle, 1/1.2 of their width, which is refused below
+  // 3 um. They lie in a file that toml() names and that is there for as long as a design of them.
+  // Throws InputError.
   static Design from_heights(const Heights& heights, const Values& values = {},
                              bool repeats = true);
   // The toml() of such a design, in another process or at another time.

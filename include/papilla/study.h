@@ -24,6 +24,7 @@ struct Variable {
 struct Objective {
   std::string name;  // "mean(modulation)"
   bool maximise = true;
+  std::string unit;  // of its values, SI; "" of a share
 };
 
 // A design as the study sees it.

@@ -14,4 +14,7 @@ double in_si(const std::string& text, const std::string& unit);
 // 3.5e-7 with "nm" -> "350 nm".
 std::string quantity_text(double si, const std::string& unit);
 
+// "nm" -> "m", "deg" -> "rad", "%" -> "": the unit of its numbers in SI. Throws InputError.
+std::string si_unit(const std::string& unit);
+
 }  // namespace papilla::api

@@ -34,6 +34,7 @@ PYBIND11_MODULE(_native, module) {
   module.attr("__version__") = papilla::version();
   module.def("in_si", &papilla::in_si, py::arg("text"), py::arg("unit"));
   module.def("quantity_text", &papilla::quantity_text, py::arg("si"), py::arg("unit"));
+  module.def("si_unit", &papilla::si_unit, py::arg("unit"));
   papilla::python::bind_design(module);
   papilla::python::bind_response(module);
   papilla::python::bind_physics(module);

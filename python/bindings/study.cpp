@@ -61,7 +61,7 @@ void bind_study(py::module_& module) {
            [](const Study& self) {
              py::list out;
              for (const Objective& o : self.objectives())
-               out.append(py::make_tuple(o.name, o.maximise));
+               out.append(py::make_tuple(o.name, o.maximise, o.unit));
              return out;
            })
       .def("violations", &Study::violations)

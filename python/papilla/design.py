@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import filecmp
 import html
+import json
 import os
 import re
 import shutil
@@ -147,9 +149,10 @@ class Design:
         z: shape (n, n), real numbers [m], high touches first, n at least 8. size: width of the map ("6 um", 6e-6).
         values: all other keys, as of ``Design``. repeats: the map repeats by itself and is taken as it is, but for its
         zero: one period is enough, and is pressed as often side by side as textures of that period are. Else it is
-        levelled, mended and made periodic as scans are (docs/how_to/scans.md), and below 3 um refused: on a patch shorter
-        than the waves of skin friction is too high (of a flat map 8 % on 3 um, within 1 % from 6 um). The highest place is
-        the untouched land, z = 0, whatever is added to the array; pillars on a film have "texture.top", their height.
+        levelled, mended and made periodic as scans are (docs/how_to/scans.md): its middle, 1/1.2 of its width, which is
+        refused below 3 um: on a patch shorter than the waves of skin friction is too high (of a flat map 8 % on 3 um,
+        within 1 % from 6 um). The highest place is the untouched land, z = 0, whatever is added to the array; pillars on
+        a film have "texture.top", their height.
 
         Raises InputError, naming "heights" or "size".
         """
@@ -194,15 +197,19 @@ class Design:
         return {number.path: number.value for number in self.numbers}
 
     def save(self, file: Path) -> None:
-        """Writes the design as a file; heights from an array lie beside it as .npy (float64, metres)."""
+        """Writes the design as a file; one of that name is replaced.
+
+        Heights from an array lie beside it, float64 in metres: those of surface.toml in surface.heights.npy. A file of
+        that name that holds others stays as it is, and they lie in surface.heights-2.npy, and so on; the design names
+        the file that it has.
+        """
         name = v.path(file, "file")
         text = self.to_toml()
         drawn = self._inside.drawn()
         if drawn is not None:
-            beside = os.path.splitext(name)[0] + ".npy"
-            np.save(beside, drawn.z)
+            beside = _kept_heights(os.path.splitext(name)[0], drawn.z)
             own = next(line for line in text.splitlines() if line.startswith('file = "'))
-            text = text.replace(own, f'file = "{os.path.basename(beside)}"')
+            text = text.replace(own, f"file = {json.dumps(os.path.basename(beside), ensure_ascii=False)}")
         partial = name + ".part"
         with open(partial, "w", encoding="utf-8") as stream:
             stream.write(text)
@@ -337,6 +344,20 @@ def _without_version(values: Mapping[str, Any]) -> Mapping[str, Any]:
     if not isinstance(values, Mapping):
         raise wrong("values", f"expected a dict of keys, got {type(values).__name__}")
     return {key: value for key, value in values.items() if not (key == "schema_version" and value == 1)}
+
+
+def _kept_heights(stem: str, z: FloatArray) -> str:
+    """Writes heights beside a design file and returns the name: that of a file with the same, else one nothing has."""
+    partial = stem + ".heights.npy.part"
+    with open(partial, "wb") as stream:  # of a name alone np.save would make another
+        np.save(stream, z)
+    out = stem + ".heights.npy"
+    copy = 2
+    while os.path.lexists(out) and not (os.path.isfile(out) and filecmp.cmp(out, partial, shallow=False)):
+        out = f"{stem}.heights-{copy}.npy"
+        copy += 1
+    os.replace(partial, out)
+    return out
 
 
 _COMMENT = re.compile(r'((?:[^"#]|"(?:[^"\\]|\\.)*")*).*')

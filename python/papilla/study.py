@@ -57,6 +57,8 @@ class Objective:
     name: str
     """"mean(modulation)" """
     maximise: bool
+    unit: str
+    """Of its values, SI; "" of a share."""
 
 
 @dataclass(frozen=True)
@@ -196,7 +198,7 @@ class Run:
 
     def to_dataframe(self) -> pandas.DataFrame:
         """A row for each finalist: its variables, each objective as confirmed and its ``..._error``, ``on_front``, ``ok``
-        and ``folder``. Needs pandas."""
+        and ``folder``; their SI units are ``frame.attrs["units"]``. Needs pandas."""
         import pandas
 
         rows = []
@@ -208,7 +210,9 @@ class Run:
                 row[objective.name + "_error"] = found.confirmed.errors[i] if known else float("nan")
             rows.append({**row, "on_front": found.on_front, "ok": found.confirmed.ok, "folder": found.folder})
         frame = pandas.DataFrame(rows)
-        frame.attrs["units"] = {variable.path: variable.unit for variable in self.study.variables}
+        frame.attrs["units"] = {
+            **{variable.path: _native.si_unit(variable.unit) for variable in self.study.variables},
+            **{objective.name + part: objective.unit for objective in self.study.objectives for part in ("", "_error")}}
         return frame
 
     @property

@@ -53,7 +53,8 @@ class Sweep:
                 frame.insert(i, key, [value] * len(frame))
             frames.append(frame)
         whole = pandas.concat(frames, ignore_index=True)
-        whole.attrs = frames[0].attrs
+        # A point without a voltage has fewer columns than one with it.
+        whole.attrs["units"] = {name: unit for frame in frames for name, unit in frame.attrs["units"].items()}
         return whole
 
     def summary(self) -> pandas.DataFrame:

@@ -147,7 +147,8 @@ class Calibration:
             absolute = json.dumps(os.path.join(place, beside), ensure_ascii=False)
             finger = re.sub(r'(?m)^(belief\s*=\s*)"[^"]*"', lambda found: found[1] + absolute, finger, count=1)
         rows = [(p["path"], p["value"], p["se"], p["low"], p["high"], p["data_share"]) for p in told["parameters"]]
-        return cls({**told, "explains_data": not told["warning"], "parameters": rows, "finger": finger,
+        # Folders of older versions do not tell it: theirs is trusted where nothing is warned of.
+        return cls({"explains_data": not told["warning"], **told, "parameters": rows, "finger": finger,
                     "table": texts["fit.md"], "json": texts["fit.json"]})
 
     def apply(self, design: Design) -> Design:

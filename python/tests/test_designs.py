@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import gc
+import json
 import pathlib
 import pickle
 
@@ -128,13 +129,31 @@ def test_a_drawn_design_is_saved_with_its_array(tmp_path: pathlib.Path) -> None:
     assert np.array_equal(pp.Design.load(tmp_path / "drawn.toml").heights(96).z, z - z.max())
 
 
+def test_saving_a_drawn_design_keeps_every_other_file(tmp_path: pathlib.Path) -> None:
+    z = drawn()
+    np.save(tmp_path / "surface.npy", z * 1e9)  # as an instrument gave it, in nm
+    raw = (tmp_path / "surface.npy").read_bytes()
+    values = {"base": "m3_samples/flat.toml"}
+    design = pp.Design.from_heights(np.load(tmp_path / "surface.npy") * 1e-9, "6 um", values)
+    other = pp.Design.from_heights(2 * z, "6 um", values)
+    design.save(tmp_path / "surface.toml")
+    design.save(tmp_path / "surface.toml")  # the same heights: no second file
+    first = (tmp_path / "surface.heights.npy").read_bytes()
+    other.save(tmp_path / "surface.toml")
+    assert (tmp_path / "surface.npy").read_bytes() == raw
+    assert (tmp_path / "surface.heights.npy").read_bytes() == first
+    assert {f.name for f in tmp_path.iterdir()} == {"surface.npy", "surface.toml", "surface.heights.npy",
+                                                    "surface.heights-2.npy"}
+    assert np.array_equal(pp.Design.load(tmp_path / "surface.toml").heights(96).z, 2 * z - (2 * z).max())
+
+
 def test_a_map_that_repeats_is_pressed_on_a_patch_as_long_as_others() -> None:
     values = {"base": "m3_samples/flat.toml", **QUICK}
     flat = pp.Design(values).evaluate().friction_off.value[0]
     for size, n in (("1 um", 8), ("6 um", 16)):
         mine = pp.Design.from_heights(np.zeros((n, n)), size, values).evaluate().friction_off.value[0]
         assert mine == pytest.approx(flat, rel=0.01), size
-    with pytest.raises(pp.InputError, match="^size: the width of the map: 1 um is shorter than the waves of skin"):
+    with pytest.raises(pp.InputError, match="^size: the patch that a map of this width leaves beside its seam: 0.83 um is shorter"):
         pp.Design.from_heights(np.zeros((8, 8)), "1 um", values, repeats=False)
     with pytest.raises(pp.InputError, match="^size: the width of the map: 6000000 um is outside"):
         pp.Design.from_heights(np.zeros((8, 8)), 6, values)
@@ -196,6 +215,17 @@ def test_a_fitted_finger_replaces_that_of_a_design() -> None:
     assert fitted["texture.depth"] == d["texture.depth"]
     with pytest.raises(pp.InputError, match="expected a Design"):
         fit.apply("a3h350.toml")  # type: ignore[arg-type]
+
+
+def test_a_fit_is_opened_with_what_it_told(tmp_path: pathlib.Path) -> None:
+    told = {"converged": False, "explains_data": True, "warning": "not converged after 4 iterations", "chi2_before": 2.0,
+            "chi2": 1.0, "degrees_of_freedom": 1, "parameters": []}
+    (tmp_path / "fit.md").write_text("# Fit\n")
+    (tmp_path / "finger.toml").write_text("")
+    for known, explains in ((told, True), ({**told, "explains_data": False}, False),
+                            ({key: value for key, value in told.items() if key != "explains_data"}, False)):
+        (tmp_path / "fit.json").write_text(json.dumps(known))
+        assert pp.Calibration.open(tmp_path).explains_data is explains
 
 
 def test_another_kind_has_nothing_of_the_one_before() -> None:

@@ -113,6 +113,25 @@ def test_a_sweep_is_its_evaluations(quick: pp.Design) -> None:
         listed.to_xarray()
 
 
+def test_the_table_of_a_sweep_has_the_units_of_all_its_points() -> None:
+    import pandas
+
+    class Told:
+        """As a response of these columns."""
+
+        def __init__(self, units: dict[str, str]) -> None:
+            self.units = units
+
+        def to_dataframe(self) -> pandas.DataFrame:
+            frame = pandas.DataFrame({name: [1.0] for name in self.units})
+            frame.attrs["units"] = self.units
+            return frame
+
+    undriven, driven = {"friction_off": "N"}, {"friction_off": "N", "modulation": "", "electrostatic_force": "N"}
+    s = pp.Sweep({}, [{"drive.amplitude": 0.0}, {"drive.amplitude": 200.0}], [], [Told(undriven), Told(driven)])  # type: ignore[list-item]
+    assert s.to_dataframe().attrs["units"] == driven
+
+
 def test_a_sweep_names_every_mistake_before_it_works(quick: pp.Design) -> None:
     told: list[object] = []
     with pytest.raises(pp.InputError) as caught:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import json
 import os
 import pathlib
 import pickle
@@ -213,6 +214,19 @@ def test_a_run_in_which_every_design_breaks_a_limit_has_no_front(tmp_path: pathl
     run = study.optimize(tmp_path / "run")
     assert not run.any_feasible and run.front == [] and run.finalists and run.best.folder
     assert not run.to_dataframe()["on_front"].any()
+
+
+def test_the_numbers_of_a_run_have_their_si_units(tmp_path: pathlib.Path) -> None:
+    study = pp.Study({**STUDY, "objective": {"maximise": "mean(modulation)", "minimise": "mean(friction)"}})
+    assert [(o.name, o.unit) for o in study.objectives] == [("mean(modulation)", ""), ("mean(friction)", "N")]
+    judged = {"ok": True, "reason": "", "values": [0.5, 0.1], "errors": [0.01, 0.002], "violations": []}
+    (tmp_path / "run.json").write_text(json.dumps({
+        "interrupted": False, "feasible": True, "evaluations": 1, "best": 0,
+        "finalists": [{"values": [3e-7, 1.0], "searched": judged, "confirmed": judged, "folder": "front/01"}]}))
+    frame = pp.Run(study, str(tmp_path)).to_dataframe()
+    assert frame["texture.depth"][0] == 3e-7 and frame["surface.contact_angle"][0] == 1.0
+    assert frame.attrs["units"] == {"texture.depth": "m", "surface.contact_angle": "rad", "mean(modulation)": "",
+                                    "mean(modulation)_error": "", "mean(friction)": "N", "mean(friction)_error": "N"}
 
 
 @pytest.mark.slow

@@ -12,6 +12,7 @@
 #include "config/node.h"
 #include "config/reader.h"
 #include "design/title.h"
+#include "geometry/measured_map.h"
 
 namespace papilla::api {
 namespace {
@@ -73,8 +74,8 @@ void drop_of_other_kinds(const Design::Inside& before, const Design::Values& val
 
 // What is wrong with the sides of drawn heights is said of them, and once: the caller knows no
 // texture.width, nor texture.patch where it gave none.
-std::vector<Problem> told_of_size(const std::vector<Problem>& problems,
-                                  const Design::Values& given) {
+std::vector<Problem> told_of_size(const std::vector<Problem>& problems, const Design::Values& given,
+                                  bool repeats) {
   std::vector<Problem> out;
   bool said = false;
   for (const Problem& p : problems) {
@@ -84,7 +85,11 @@ std::vector<Problem> told_of_size(const std::vector<Problem>& problems,
     if (!of_size) {
       out.push_back(p);
     } else if (!said) {
-      out.push_back({"", 0, 0, "size", "the width of the map: " + p.message});
+      out.push_back({"", 0, 0, "size",
+                     (p.key == "texture.width" || repeats
+                          ? "the width of the map: "
+                          : "the patch that a map of this width leaves beside its seam: ") +
+                         p.message});
       said = true;
     }
   }
@@ -139,17 +144,20 @@ Design Design::from_heights(const Heights& heights, const Values& values, bool r
     Inside inside;
     inside.text = "schema_version = 1\n";
     inside.drawn = std::make_shared<const DrawnMap>(heights);
-    const std::string width = format_number(inside.drawn->width());
+    const double width = inside.drawn->width();
+    // One that does not repeat gives room for the seam that makes it periodic. Eq. geometry.4
+    const double patch =
+        repeats ? width : largest_patch(changes_of_map({inside.drawn->file(), width}));
     inside.values = {{"texture.type", "measured"},
                      {"texture.file", toml_string(inside.drawn->file())},
-                     {"texture.width:", width},
-                     {"texture.patch:", width},
+                     {"texture.width:", format_number(width)},
+                     {"texture.patch:", format_number(patch)},
                      {"texture.as_is", repeats ? "true" : "false"}};
     inside.values.insert(inside.values.end(), values.begin(), values.end());
     try {
       return Design(loaded(std::move(inside)));
     } catch (const InputError& error) {
-      throw InputError(told_of_size(error.problems(), values));
+      throw InputError(told_of_size(error.problems(), values, repeats));
     }
   });
 }

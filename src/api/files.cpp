@@ -5,6 +5,7 @@
 
 #include "api/inside.h"
 #include "fabricate/export.h"
+#include "fabricate/formats.h"
 #include "fabricate/verify.h"
 #include "report/export.h"
 #include "report/verdict.h"
@@ -34,6 +35,12 @@ Exported export_files(const Design& design, const std::string& folder,
       throw wrong("polarity", "expected white-high or white-deep, got " + options.polarity);
     }
     const rooms::Study& study = design.inside().study;
+    if (inside.polarity) {
+      const std::string why =
+          without_effect(chosen_formats(study.design.texture, inside), "polarity", "formats",
+                         [](const ExportFormat& format) { return format.needs_polarity; });
+      if (!why.empty()) throw rooms::InputError(why);
+    }
     const Export done = export_with_record(study, inside, folder);
     Exported out;
     for (const ExportedFile& file : done.files) out.files.push_back(file.path);

@@ -9,6 +9,7 @@
 
 #include "api/inside.h"
 #include "config/writer.h"
+#include "metrics/shown.h"
 #include "optim/search.h"
 #include "report/results.h"
 #include "report/summary.h"
@@ -38,7 +39,7 @@ std::shared_ptr<const Study::Inside> judged_by(const rooms::Study& study) {
     inside->variables.push_back(std::move(out));
   }
   for (const StudyObjective& o : inside->problem->objectives())
-    inside->objectives.push_back({o.name, o.maximise});
+    inside->objectives.push_back({o.name, o.maximise, rooms::si_unit(o.expression)});
   return inside;
 }
 

@@ -46,10 +46,14 @@ fs::path find_module(const std::string& name) {
 
 std::vector<std::string> own_designs() {
   std::vector<std::string> found;
-  std::error_code error;
-  for (const fs::path& folder : {root_of(library_folder()) / PAPILLA_DATADIR / "papilla/designs",
-                                 fs::path(PAPILLA_SOURCE_DIR) / "designs"}) {
-    if (fs::is_directory(folder, error)) found.push_back(folder.lexically_normal().string());
+  const fs::path folder = library_folder();
+  if (folder.empty()) return found;
+  // Of the installed tree, or of the build tree: a link to those of the source, beside the library
+  // and above the programs of the tests where that is static.
+  for (const fs::path& root : {root_of(folder), folder}) {
+    std::error_code error;
+    const fs::path designs = fs::canonical(root / PAPILLA_DATADIR / "papilla/designs", error);
+    if (!error && fs::is_directory(designs, error)) found.push_back(designs.string());
   }
   return found;
 }

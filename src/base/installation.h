@@ -14,8 +14,8 @@ namespace papilla::base {
 // the library, so that the system looks for it.
 std::filesystem::path find_module(const std::string& name);
 
-// The designs that belong to the library: of the installed tree, else of the source tree; those
-// that exist.
+// The folders of designs that belong to the library: of the installed tree, or of the build tree,
+// which has a link to those of the source; links followed, those that exist.
 std::vector<std::string> own_designs();
 
 }  // namespace papilla::base

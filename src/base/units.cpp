@@ -137,32 +137,62 @@ std::optional<Unit> find_unit(std::string_view name) {
   return result;
 }
 
-std::string dimension_name(const Unit& unit) {
-  static const std::array<std::pair<Unit, const char*>, 19> names{{
-      {Unit{}, "a plain number or a percentage"},
-      {kLength, "a length"},
-      {Unit{1, 2, 0, 0, 0, 0}, "an area"},
-      {Unit{1, 3, 0, 0, 0, 0}, "a volume"},
-      {Unit{1, -1, 0, 0, 0, 0}, "an inverse length"},
-      {kForce, "a force"},
-      {kPressure, "a pressure"},
-      {kVoltage, "a voltage"},
-      {kTime, "a time"},
-      {kFrequency, "a frequency"},
-      {kCurrent, "a current"},
-      {kResistance, "a resistance"},
-      {kCapacitance, "a capacitance"},
-      {kEnergy, "an energy"},
-      {kAngle, "an angle"},
-      {Unit{1, 0, 1, -2, 0, 0}, "a surface tension"},
-      {Unit{1, 3, 1, -3, -2, 0}, "a resistivity"},
-      {Unit{1, 1, 1, -3, -1, 0}, "an electric field"},
-      {Unit{1, -3, 0, 0, 0, 0}, "a number per volume"},
-  }};
-  for (const auto& [known, name] : names) {
-    if (known.same_dimension(unit)) return name;
+namespace {
+
+struct Dimension {
+  Unit unit;  // of factor 1
+  const char *name, *si;
+};
+const std::vector<Dimension>& dimensions() {
+  static const std::vector<Dimension> list{
+      {Unit{}, "a plain number or a percentage", ""},
+      {kLength, "a length", "m"},
+      {Unit{1, 2, 0, 0, 0, 0}, "an area", "m2"},
+      {Unit{1, 3, 0, 0, 0, 0}, "a volume", "m3"},
+      {Unit{1, -1, 0, 0, 0, 0}, "an inverse length", "1/m"},
+      {kForce, "a force", "N"},
+      {kPressure, "a pressure", "Pa"},
+      {kVoltage, "a voltage", "V"},
+      {kTime, "a time", "s"},
+      {kFrequency, "a frequency", "Hz"},
+      {kCurrent, "a current", "A"},
+      {kResistance, "a resistance", "ohm"},
+      {kCapacitance, "a capacitance", "F"},
+      {kEnergy, "an energy", "J"},
+      {kAngle, "an angle", "rad"},
+      {Unit{1, 0, 1, -2, 0, 0}, "a surface tension", "N/m"},
+      {Unit{1, 3, 1, -3, -2, 0}, "a resistivity", "ohm m"},
+      {Unit{1, 1, 1, -3, -1, 0}, "an electric field", "V/m"},
+      {Unit{1, -3, 0, 0, 0, 0}, "a number per volume", "1/m3"},
+  };
+  return list;
+}
+
+const Dimension* find_dimension(const Unit& unit) {
+  for (const Dimension& known : dimensions()) {
+    if (known.unit.same_dimension(unit)) return &known;
   }
-  return "another kind of quantity";
+  return nullptr;
+}
+
+}  // namespace
+
+std::string dimension_name(const Unit& unit) {
+  const Dimension* known = find_dimension(unit);
+  return known ? known->name : "another kind of quantity";
+}
+
+std::string si_name(const Unit& unit) {
+  if (const Dimension* known = find_dimension(unit)) return known->si;
+  std::string out;
+  for (const auto& [symbol, power] : {std::pair{"m", unit.metre},
+                                      {"kg", unit.kilogram},
+                                      {"s", unit.second},
+                                      {"A", unit.ampere},
+                                      {"rad", unit.radian}}) {
+    if (power != 0) out += fmt::format("{}{}{}", out.empty() ? "" : " ", symbol, power);
+  }
+  return out;
 }
 
 namespace {

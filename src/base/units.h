@@ -29,6 +29,8 @@ std::vector<std::string> unit_names(const Unit& like);
 
 // "a length", "a voltage", ...: for messages.
 std::string dimension_name(const Unit& unit);
+// Of its dimension in SI: "nm" -> "m", "deg" -> "rad", "%" -> ""; "m4", "kg1 s-3" of what has none.
+std::string si_name(const Unit& unit);
 
 struct Quantity {
   double value = 0;  // as written, not yet SI

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/check.h"
 #include "base/constants.h"
 #include "base/units.h"
 #include "base/watch.h"
@@ -168,65 +167,50 @@ class Fit {
     trials_.clear();  // of other corrections
   }
 
-  // By the correction as it is. Profiles cost many times the descent, so what is wrong with the
-  // data is said before them, and a finger that explains nothing has none.
+  // By the correction as it is.
   void fit_once() {
     in_descent_ = 0;
     trials_.clear();  // of other corrections
     const std::vector<RowBand> bands = residuals_.bands();
-    // The descent is asked for again with the profiles, call by call, and answered from here.
-    std::vector<Asked> descent;
-    bool again = false;
-    std::size_t replayed = 0;
     const auto misses = [&](std::span<const double> p, std::span<double> r) {
-      if (again && replayed < descent.size()) {
-        const Asked& asked = descent[replayed++];
-        PAPILLA_CHECK(std::equal(p.begin(), p.end(), asked.at.begin(), asked.at.end()),
-                      "a descent asks the same again");
-        std::copy(asked.misses.begin(), asked.misses.end(), r.begin());
-        return asked.ok;
-      }
       const bool ok = residuals_.answers(calibration_, p, r);
       Watch::look();
       if (ok) trials_.push_back({{p.begin(), p.end()}, {r.begin(), r.end()}});
       take_bands_off(r, bands);
-      if (!again) descent.push_back({{p.begin(), p.end()}, {r.begin(), r.end()}, ok});
       if (++evaluations_ % kEvaluationsANote == 0)
         note(fmt::format("evaluation {}: chi2 {:.4g}; {}", evaluations_, sum_of_squares(r),
                          time_left()));
       ++in_descent_;
       return ok;
     };
-    LeastSquaresOptions options = fit_options(calibration_);
-    const int refits = std::exchange(options.profile_iterations, 0);
     profiles_ = {};
-    out_.fit = least_squares(parameters_, residuals_.size(), misses, options);
-    std::vector<FitRow>& rows = residuals_.rows();
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].miss = out_.fit.residuals[i];
-    note(fmt::format("chi2 {:.4g} after the descent; {}", out_.fit.chi2, worst_miss_text(rows)));
-    const int wanted =
-        options.profiles
-            ? static_cast<int>(parameters_.size())
-            : static_cast<int>(std::count_if(out_.fit.parameters.begin(), out_.fit.parameters.end(),
-                                             [](const ParameterFit& p) { return p.at_bound; }));
-    if (wanted == 0) return;
-    if (!explains_data(out_)) {
-      if (!std::exchange(said_without_profiles_, true))
-        note(
-            fmt::format("profiles are not walked: chi2 per degree of freedom is {:.3g}, beyond "
-                        "{:g}, and intervals of a finger that does not explain the data say "
-                        "nothing",
-                        misfit(out_), kPoorFit));
-      return;
-    }
-    options.profile_iterations = refits;
+    LeastSquaresOptions options = fit_options(calibration_);
+    options.walks_profiles = [&](const LeastSquaresFit& fit) { return walks_profiles(fit); };
     options.note = [&](const std::string& text) {
       if (profiles_.begun == 0) profiles_.since = std::chrono::steady_clock::now();
-      note(fmt::format("{}, {} of {}", text, ++profiles_.begun, wanted));
+      note(fmt::format("{}, {} of {}", text, ++profiles_.begun, profiles_.wanted));
     };
-    profiles_.wanted = wanted;
-    again = true;
     out_.fit = least_squares(parameters_, residuals_.size(), misses, options);
+  }
+
+  // Profiles cost many times the descent, so what is wrong with the data is said before them, and a
+  // finger that explains nothing has none.
+  bool walks_profiles(const LeastSquaresFit& fit) {
+    out_.fit = fit;
+    std::vector<FitRow>& rows = residuals_.rows();
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].miss = fit.residuals[i];
+    note(fmt::format("chi2 {:.4g} after the descent; {}", fit.chi2, worst_miss_text(rows)));
+    profiles_.wanted = static_cast<int>(
+        std::count_if(fit.parameters.begin(), fit.parameters.end(),
+                      [&](const ParameterFit& p) { return calibration_.profiles || p.at_bound; }));
+    if (profiles_.wanted == 0) return false;
+    if (explains_data(out_)) return true;
+    if (!std::exchange(said_without_profiles_, true))
+      note(
+          fmt::format("profiles are not walked: chi2 per degree of freedom is {:.3g}, beyond "
+                      "{:g}, and intervals of a finger that does not explain the data say nothing",
+                      misfit(out_), kPoorFit));
+    return false;
   }
 
   // Of the descent by what it may take, of the profiles by what those before took.
@@ -272,11 +256,6 @@ class Fit {
           flat_glass_friction(out_.finger, calibration_.check.fidelity(options_.threads));
     }
   }
-
-  struct Asked {
-    std::vector<double> at, misses;
-    bool ok;
-  };
 
   const Calibration& calibration_;
   const CalibrationOptions& options_;

@@ -55,11 +55,10 @@ std::string as_text(const SkinSampling& s) {
 // All that the model's answers depend on beside finger and sampling.
 std::string problem_of(const Calibration& calibration, const std::vector<MeasuredGroup>& groups) {
   std::string out = PAPILLA_VERSION "\n" + read_bytes(calibration.file);
-  out += maps_state({}, calibration.finger);
+  out += maps_state(calibration.finger);
   if (!calibration.fit.empty()) out += designs_state("m3_samples");
   for (const MeasuredGroup& group : groups) {
-    out +=
-        write_toml(to_table(group.design)) + maps_state(group.design.texture, calibration.finger);
+    out += write_toml(to_table(group.design)) + maps_state(group.design);
     for (const std::size_t row : group.rows) out += fmt::format(" {}", row);
     for (const std::size_t at : group.humidity_of) out += fmt::format(" {}", at);
   }

@@ -59,11 +59,19 @@ Network given_network(const DriveCase& c) {
   return n;
 }
 
+// The scene of the gap's design, whose finger presses with the load of the case: gap, area and
+// friction are of one touch.
+Scene touched(const DriveCase& c, const Design& design) {
+  Scene scene = scene_of(design);
+  scene.finger.load = c.touch.load;
+  return scene;
+}
+
 // The gap of the load-carrying patches of a design; water is left out.
 Network design_network(const DriveCase& c, double& area) {
   const Design design = read_design(c.gap.design);
   Fidelity fidelity = fidelity_of(design);
-  const Scene scene = in_its_state(scene_of(design));
+  const Scene scene = in_its_state(touched(c, design));
   const double rh = c.gap.relative_humidity;
   const ElectricalLayer& electrical = scene.finger.electrical;
   if (electrical.skin_exponent != 1 || electrical.gap_exponent != 1)
@@ -112,7 +120,7 @@ double spots_conductance(const DriveCase& c, double area) {
   for (int k = 0; k < c.gap.skins; ++k) {
     double pressure[2], gap[2];
     for (const int more : {0, 1}) {
-      Scene scene = scene_of(design);
+      Scene scene = touched(c, design);
       scene.drive.amplitude = 0;
       scene.finger.macro.load_share /= more ? kMore : 1;
       const PatchPicture picture = picture_patch(scene, design.texture, fidelity, rh, k);
@@ -175,7 +183,9 @@ void fields(FieldVisitor& v, GapSettings& s) {
             "Shultz 2018: 17 Mohm"},
            s.resistivity);
   v.number({"permittivity", "", 1, 1e4, "of the gap"}, s.permittivity);
-  v.path({"design", "take gap, surface, skin and area from the solved patches of this design"},
+  v.path({"design",
+          "take gap, surface, skin and area from the solved patches of this design, whose finger "
+          "presses with touch.load"},
          s.design);
   v.flag({"contact_spots", "that design's contact spots conduct beside the gap"}, s.contact_spots);
   v.number({"relative_humidity", "%", 0, 100, "of that design"}, s.relative_humidity);
@@ -197,7 +207,7 @@ void fields(FieldVisitor& v, SkinLayerSettings& s) {
 }
 
 void fields(FieldVisitor& v, DriveTouch& s) {
-  v.number({"load", "N", 0, 1e3, "normal force"}, s.load);
+  v.number({"load", "N", 0, 1e3, "normal force, of the finger of gap.design too"}, s.load);
   v.number({"area", "mm2", 1e-6, 1e6, "electrical contact area", Source::Paper, "Shultz 2018"},
            s.area);
   v.number({"coefficient", "", 0, 10, "friction = coefficient (load + pull)", Source::Paper,
@@ -313,6 +323,10 @@ DriveCase read_drive_case(Document document) {
     document.problem_at("gap.resistivity",
                         "a constant current through an insulating gap has no end: give the gap a "
                         "resistivity or the source a shunt");
+  }
+  if (!c.gap.design.empty() && c.touch.load <= 0) {
+    document.problem_at("touch.load",
+                        "expected a force above 0 N: it presses the finger of gap.design");
   }
   const bool chirps = c.source.chirp_to > 0, recorded = !c.source.file.empty();
   if (chirps && (recorded || c.drive.waveform != Waveform::Sine || !c.tones.frequency.empty())) {

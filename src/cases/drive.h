@@ -19,7 +19,8 @@ struct GapSettings {
   double distance = 1.06e-6;   // [m]
   double resistivity = 4.8e8;  // [ohm m]; 0: an insulator
   double permittivity = 1;
-  std::string design;               // file; then distance, surface, skin and area come from it
+  // File; then distance, surface, skin and area come from it, at the load of the case's touch.
+  std::string design;
   bool contact_spots = false;       // of that design conduct beside the gap
   double relative_humidity = 0.55;  // of that design
   int skins = 4;                    // patches that are averaged

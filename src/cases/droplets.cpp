@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "design/design.h"
 #include "forward/forward.h"
+#include "forward/scene_terms.h"
 #include "geometry/io/files.h"
 #include "physics/capillary/threshold.h"
 
@@ -28,8 +29,7 @@ DropletCase droplets_of_design(const std::string& file, double relative_humidity
   DropletCase out;
   out.gap = {grid, picture.fields.off.gap};
   out.volume = finger.water.volume_per_area(relative_humidity) * grid.area();
-  out.water = {finger.water.surface_tension, finger.water.contact_angle,
-               scene.surface.contact_angle, finger.water.hysteresis};
+  out.water = water_properties(in_its_state(scene), scene.surface.contact_angle);
   out.how.drops_per_volume = finger.water.drops_per_um3 * 1e18;
   out.how.first_step = scene.model.droplet_step;
   out.how.rims = std::make_shared<RimMap>(picture.texture);

@@ -19,9 +19,9 @@ struct DropletCase {
   double volume = 0;  // in the patch [m^3]
   DropletOptions how;
 };
-// The gap of a design is that of its dry contact at its patch pressure; water, angles and droplets
-// are those of its scene; rims pin and corners wick by its model, or where asked for. Throws
-// InputError. Cost: one patch.
+// The gap of a design is that of its dry contact at its patch pressure; water, angles, droplets and
+// the law of their force (model.preset) are those of its scene; rims pin and corners wick by its
+// model, or where asked for. Throws InputError. Cost: one patch.
 DropletCase droplets_of_design(const std::string& file, double relative_humidity, int skin,
                                bool rim_pinning, bool corner_wicking);
 // The gap of a heightmap file, 0 in contact; width: lateral size [m] where it does not say. The

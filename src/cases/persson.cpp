@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "base/constants.h"
 #include "base/error.h"
@@ -217,14 +218,25 @@ namespace {
 // Spectrum and theory of a case.
 class CaseField {
  public:
-  explicit CaseField(const MeanFieldCase& c)
-      : case_(c),
-        given_(c.roughness.spectrum()),
-        field_(smoothed(c, given_), c.skin.solid,
-               {.kappa = c.theory.kappa, .energy_factor = c.theory.energy_factor}) {}
+  explicit CaseField(const MeanFieldCase& c) : case_(c), given_(c.roughness.spectrum()) {}
 
   const PowerSpectrum& given() const { return given_; }
-  const MeanField& field() const { return field_; }
+  // The theory under a load [N]. A skin that yields is flattened by the pressure of that load, so
+  // that each has a spectrum of its own; an elastic one has one for all. Eq. persson.10
+  const MeanField& field(double load) const {
+    const double hardness = case_.skin.hardness;
+    const double pressure =
+        hardness > 0 ? std::max(load / case_.touch.area, case_.touch.finite_size_pressure) : 0;
+    auto found = fields_.find(pressure);
+    if (found == fields_.end())
+      found = fields_.emplace(pressure, theory(hardness > 0 ? flattened(pressure) : given_)).first;
+    return found->second;
+  }
+  MeanField theory(const PowerSpectrum& spectrum) const {
+    return {spectrum,
+            case_.skin.solid,
+            {.kappa = case_.theory.kappa, .energy_factor = case_.theory.energy_factor}};
+  }
 
   std::complex<double> thickness(double frequency) const {
     return case_.interface.thickness(case_.skin.solid.layer_thickness, frequency);
@@ -241,10 +253,11 @@ class CaseField {
     drive.amplitude = voltage;
     const bool pulls = std::isfinite(point.thickness.real());
     const std::complex<double> h0 = pulls ? point.thickness : 1.0;
-    point.on = friction_at(field_, load, touch.area, touch.shear_strength,
+    const MeanField& loaded = field(load);
+    point.on = friction_at(loaded, load, touch.area, touch.shear_strength,
                            pulls ? drive.v_rms() : 0, h0, touch.finite_size_pressure);
     point.yielded = case_.skin.hardness > 0 && point.on.pull.pressure >= case_.skin.hardness;
-    point.area_off = field_.area(load / touch.area);
+    point.area_off = loaded.area(load / touch.area);
     if (pulls && insulates(point.thickness))
       point.capacitance =
           kVacuumPermittivity * touch.area * std::abs(gaps_of(point).inverse(point.thickness));
@@ -252,15 +265,14 @@ class CaseField {
   }
 
   GapDistribution gaps_of(const MeanFieldPoint& point) const {
-    return field_.gaps(std::max(point.on.pull.pressure, case_.touch.finite_size_pressure));
+    return field(point.load)
+        .gaps(std::max(point.on.pull.pressure, case_.touch.finite_size_pressure));
   }
 
  private:
-  static PowerSpectrum smoothed(const MeanFieldCase& c, const PowerSpectrum& given) {
-    if (c.skin.hardness <= 0) return given;
-    const double pressure = std::max(c.touch.load / c.touch.area, c.touch.finite_size_pressure);
-    PowerSpectrum smooth =
-        plastic_smoothing(given, c.skin.solid, c.skin.hardness, pressure, c.theory.kappa);
+  PowerSpectrum flattened(double pressure) const {
+    PowerSpectrum smooth = plastic_smoothing(given_, case_.skin.solid, case_.skin.hardness,
+                                             pressure, case_.theory.kappa);
     if (smooth.wave_number.size() < 2) {
       throw InputError({Problem{
           "", 0, 0, "skin.hardness",
@@ -271,7 +283,7 @@ class CaseField {
 
   const MeanFieldCase& case_;
   PowerSpectrum given_;
-  MeanField field_;
+  mutable std::map<double, MeanField> fields_;  // by the pressure that flattens [Pa]
 };
 
 // From low to high, both included, evenly in the logarithm.
@@ -289,7 +301,7 @@ constexpr int kCurve = 121;  // points of a curve
 MeanFieldResult solve_mean_field(const MeanFieldCase& c) {
   const CaseField of(c);
   MeanFieldResult result;
-  const PowerSpectrum& spectrum = of.field().spectrum();
+  const PowerSpectrum& spectrum = of.field(c.touch.load).spectrum();
   result.rms = spectrum.rms();
   result.slope = spectrum.slope();
   result.contact_modulus = effective_modulus(c.skin.solid, spectrum.highest());
@@ -303,8 +315,8 @@ MeanFieldResult solve_mean_field(const MeanFieldCase& c) {
 
 MeanFieldCurves mean_field_curves(const MeanFieldCase& c) {
   const CaseField of(c);
-  const MeanField& field = of.field();
-  const MeanField rough(of.given(), c.skin.solid, field.options());
+  const MeanField& field = of.field(c.touch.load);
+  const MeanField rough = of.theory(of.given());
   const double pressure = c.touch.load / c.touch.area;
   MeanFieldCurves out;
   for (const double q : spaced(of.given().lowest(), of.given().highest(), kCurve)) {

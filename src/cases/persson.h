@@ -99,8 +99,8 @@ struct MeanFieldResult {
   MeanFieldPoint point;
   std::vector<MeanFieldPoint> voltage, load, frequency;  // one per sweep
 };
-// Milliseconds per point. Throws InputError for what has no answer (a skin that yields at every
-// scale).
+// Milliseconds per point; a skin that yields is flattened at each load by that load. Throws
+// InputError for what has no answer (a skin that yields at every scale).
 MeanFieldResult solve_mean_field(const MeanFieldCase& c);
 
 // What the case's own point consists of, as curves.
@@ -111,7 +111,7 @@ struct MeanFieldCurves {
     double area;              // A/A0 of the smoothed spectrum up to here
     double elastic, yielded;  // of the given one, where the skin yields; else area and 0
   };
-  struct Separation {  // over nominal pressure [Pa]
+  struct Separation {  // over nominal pressure [Pa], of the skin that the case's load has flattened
     double pressure;
     double gap, held_gap;  // mean gap [m]: of an infinite body, and of one of a finite size
   };

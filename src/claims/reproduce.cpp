@@ -52,8 +52,8 @@ std::string judged_problem(const ReproduceOptions& options) {
   const SkinSampling& skins = options.sampling;
   return fmt::format(PAPILLA_VERSION " {} {} {} {} {}\n", skins.level, skins.skins,
                      skins.first_skin, skins.grid, options.one_preset) +
-         to_toml(options.finger) + maps_state({}, options.finger) + "\n" +
-         designs_state("m3_samples") + designs_state("coatings");
+         to_toml(options.finger) + maps_state(options.finger) + "\n" + designs_state("m3_samples") +
+         designs_state("coatings");
 }
 
 std::vector<ClaimResult> reproduce(const ReproduceOptions& options) {

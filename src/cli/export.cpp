@@ -28,6 +28,15 @@
 namespace papilla::cli {
 namespace {
 
+// An option that some files alone depend on.
+struct OptionOfFiles {
+  Option option;
+  // array: of the texture, whose layout repeats one shape; null: contours are drawn.
+  bool (*shapes)(const ExportFormat& format, const FeatureArray* array);
+  // Why no file of a texture depends on it, where none does.
+  const char* of_no_file = "";
+};
+
 struct ExportCommand {
   DesignOptions design;
   std::vector<std::string> formats;
@@ -35,21 +44,25 @@ struct ExportCommand {
       tolerance = "5 %";
   int pixels = 1024, repeat = 1, levels = 1;
   bool verify = false, unrounded = false;
-  // An option of some formats alone, and theirs.
-  std::vector<std::pair<Option, std::vector<std::string>>> of_formats;
+  std::vector<OptionOfFiles> of_files;
+  std::vector<Option> of_verify;
 };
 
-// Throws InputError for an option of files that are not written.
-void refuse_of_other_formats(const ExportCommand& command) {
-  if (command.formats.empty()) return;  // all that the texture allows
-  for (const auto& [option, formats] : command.of_formats) {
-    const bool written = std::any_of(formats.begin(), formats.end(), [&](const auto& format) {
-      return std::count(command.formats.begin(), command.formats.end(), format) > 0;
-    });
-    if (option.given() && !written)
-      throw InputError(fmt::format("{} is of {}, which --format does not name", option.name(),
-                                   join_names(formats, " and ")));
+// Throws InputError for an option that nothing of what is written depends on.
+void refuse_without_effect(const ExportCommand& command, const Texture& design,
+                           const ExportOptions& options) {
+  const Texture drawn = compensated(design, options.bias);
+  const TextureFacts known = facts(drawn);
+  const std::vector<ExportFormat> written = chosen_formats(drawn, options);
+  for (const OptionOfFiles& of : command.of_files) {
+    if (!of.option.given()) continue;
+    const std::string why = without_effect(
+        written, of.option.name(), "--format",
+        [&](const ExportFormat& format) { return of.shapes(format, array_of(known)); },
+        of.of_no_file);
+    if (!why.empty()) throw InputError(why);
   }
+  if (!command.verify) refuse(command.of_verify, "--verify: add that, or leave --tolerance out");
 }
 
 // What is exported, and where its files go by default: beside a folder of results.
@@ -124,11 +137,12 @@ ExportOptions options_of(const ExportCommand& command) {
 }
 
 int export_files(const Context& context, const ExportCommand& command) {
-  refuse_of_other_formats(command);
   const ExportSourceFile source = source_of(command);
   DesignOptions chosen = command.design;
   chosen.file = source.design;
   const Study study = chosen.study();
+  const ExportOptions options = options_of(command);
+  refuse_without_effect(command, study.design.texture, options);
   if (source.rounded) {
     context.note(source.design +
                  ", on the grid of the fab as the build sheet has it; as the search left it: "
@@ -139,7 +153,6 @@ int export_files(const Context& context, const ExportCommand& command) {
                  (source.beside.empty() || !command.pick.empty()
                       ? ""
                       : "; --pick takes a texture of the front by its number"));
-  const ExportOptions options = options_of(command);
   say_scans({study.design});
   const double tolerance = parse_si(command.tolerance, "%");
   const std::string folder = !command.out.empty()     ? command.out
@@ -192,43 +205,53 @@ void add_export(Command app, Context& context) {
                      "Side, or both of them, rounded to whole periods: \"1 mm\", \"110x62 mm\"; "
                      "default: about 12 um");
   command.add_option("--pixels", options->pixels, "Pixels along x").range(8, 65536).show_default();
-  command
-      .add_option("--polarity", options->polarity,
-                  "white-high (bright is high) or white-deep; needed for tiff and mask")
-      .one_of({"white-high", "white-deep"});
-  const auto of_formats = [&](const Option& option, const std::vector<std::string>& formats) {
-    options->of_formats.emplace_back(option, formats);
-  };
-  of_formats(command
-                 .add_option(
-                     "--repeat", options->repeat,
-                     "Of the EXR alone: the map so many times each way, streamed; --size is of all "
-                     "files")
-                 .range(1, 4096),
-             {"exr"});
-  of_formats(
-      command
-          .add_option("--levels", options->levels, "Layout of a free form: layers, one per level")
-          .range(1, 64),
-      {"gds", "oasis"});
-  of_formats(command.add_option("--facet-error", options->facet_error,
-                                "Layouts: of circles; default 2 nm"),
-             {"gds", "oasis"});
+  options->of_files.push_back(
+      {command
+           .add_option("--polarity", options->polarity,
+                       "white-high (bright is high) or white-deep; needed for tiff and mask")
+           .one_of({"white-high", "white-deep"}),
+       [](const ExportFormat& format, const FeatureArray*) { return format.needs_polarity; }});
+  options->of_files.push_back(
+      {command
+           .add_option("--repeat", options->repeat,
+                       "Of the EXR alone: the map so many times each way, streamed; --size is of "
+                       "all files")
+           .range(1, 4096),
+       [](const ExportFormat& format, const FeatureArray*) { return format.repeated; }});
+  options->of_files.push_back(
+      {command
+           .add_option("--levels", options->levels, "Layout of a free form: layers, one per level")
+           .range(1, 64),
+       [](const ExportFormat& format, const FeatureArray* array) {
+         return format.needs_outline && !array;
+       },
+       "the layout of holes, pillars and grooves has one layer"});
+  options->of_files.push_back(
+      {command.add_option("--facet-error", options->facet_error,
+                          "Layouts: of circles; default 2 nm"),
+       [](const ExportFormat& format, const FeatureArray* array) {
+         return format.needs_outline && array && array->shape == FeatureArray::Shape::Disc;
+       },
+       "the layout of this texture has no circles; contours follow --pixels, and grooves are "
+       "straight"});
   command.add_option("--shrink", options->shrink,
                      "The process moves each wall into the hole by this; undone in the files");
-  command.add_option("--edge-rounding", options->edge_rounding,
-                     "The process rounds rims by this; left out of the files");
-  of_formats(
-      command.add_option("--dose-curve", options->dose_curve, "CSV depth_nm,grey: writes dose.png")
-          .type_name("FILE"),
-      {"dose"});
+  options->of_files.push_back(
+      {command.add_option("--edge-rounding", options->edge_rounding,
+                          "The process rounds rims by this; left out of the files"),
+       [](const ExportFormat& format, const FeatureArray*) { return format.has_pixels(); }});
+  options->of_files.push_back(
+      {command.add_option("--dose-curve", options->dose_curve, "CSV depth_nm,grey: writes dose.png")
+           .type_name("FILE"),
+       [](const ExportFormat& format, const FeatureArray*) { return format.needs_dose_curve; }});
   command.add_flag(
       "--verify", options->verify,
       "Also measure holes and walls in the written heights and simulate them (every file is "
       "held against the design in any case)");
-  command.add_option("--tolerance", options->tolerance, "Largest loss of merit of --verify")
-      .check(share_mistake)
-      .show_default();
+  options->of_verify = {
+      command.add_option("--tolerance", options->tolerance, "Largest loss of merit of --verify")
+          .check(share_mistake)
+          .show_default()};
   command
       .add_option("--out", options->out,
                   "Folder; default results/NAME/export, of a folder FILE in FILE/export")

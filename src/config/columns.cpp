@@ -57,7 +57,7 @@ TableColumn read_column(std::string_view cell, const std::vector<ColumnKind>& ki
   });
   if (kind == kinds.end()) kind = std::find_if(kinds.begin(), kinds.end(), named);
   if (kind == kinds.end()) return {};
-  if (kind->is_text || kind->unit.empty()) return {&*kind, 1};
+  if (kind->is_text || kind->unit.empty()) return {&*kind, 1, ""};
   // "%" is no letter of a name.
   const std::string unit = is.unit == "percent" ? "%" : is.unit;
   const Unit wanted = *find_unit(kind->unit);
@@ -70,7 +70,7 @@ TableColumn read_column(std::string_view cell, const std::vector<ColumnKind>& ki
             : fmt::format("{}: \"{}\" is no unit of {}; write {}_{}", cell, is.unit,
                           dimension_name(wanted), is.name, shown));
   }
-  return {&*kind, found->to_si};
+  return {&*kind, found->to_si, unit};
 }
 
 bool Header::has(const ColumnKind& kind) const {

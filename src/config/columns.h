@@ -26,6 +26,7 @@ struct ColumnKind {
 struct TableColumn {
   const ColumnKind* kind = nullptr;
   double to_si = 1;
+  std::string unit{};  // of its cells, as its head says it: "mN", "%"; "": a plain number or a text
 };
 
 // What a header cell stands for; null kind: unknown. Throws InputError for a known name whose unit

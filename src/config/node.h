@@ -60,6 +60,8 @@ inline constexpr std::string_view kResolvedHead =
 Node parse_toml(std::string_view text, const std::string& file);
 // A tree to TOML text: members before sections, comments behind values.
 std::string write_toml(const Node& table);
+// A value as it stands behind its key, in its line: tables in braces.
+std::string value_toml(const Node& value);
 // A text as a string of TOML, in quotes.
 std::string toml_string(std::string_view text);
 

@@ -110,6 +110,12 @@ void drive_problems(const Drive& drive, const Surface& surface, Problems& out) {
                    "a constant current through a film that insulates has no end: give an "
                    "alternating one"});
   }
+  if (current && drive.waveform == Waveform::Square && drive.driven()) {
+    out.push_back({"drive.waveform",
+                   "a square current makes a triangular voltage across film and gap, which is not "
+                   "modelled: give a sine, or control = \"voltage\" with drive.amplitude "
+                   "(`papilla solve drive` follows the circuit in time)"});
+  }
   if (current && drive.current > drive.current_limit) {
     out.push_back({"drive.current", fmt::format("{} is above drive.current_limit, {}",
                                                 format_quantity(drive.current, "mA"),
@@ -224,6 +230,13 @@ void view_problems(const View& view, const Surface& surface, Problems& out) {
   if (view.angles.empty()) out.push_back({"view.angles", "expected at least one angle"});
   if (view.fill_index > surface.refractive_index) {
     out.push_back({"view.fill_index", "expected at most surface.refractive_index"});
+  }
+}
+
+void add_map_files(Texture& texture, std::vector<std::string*>& out) {
+  if (auto* measured = std::get_if<Measured3d>(&texture.kind)) out.push_back(&measured->file);
+  if (std::vector<Texture>* parts = roles(texture).parts) {
+    for (Texture& part : *parts) add_map_files(part, out);
   }
 }
 
@@ -352,13 +365,29 @@ std::string find_design(const std::string& name) {
   throw InputError(name + " is in no designs folder; set PAPILLA_DESIGNS to the one that has it");
 }
 
-std::string maps_state(const Texture& texture, const Finger& finger) {
-  std::vector<MapVersion> maps = map_versions(texture);
-  if (!finger.skin.map.empty()) maps.push_back(map_version(finger.skin.map));
-  std::string out;
-  for (const MapVersion& map : maps)
-    out += fmt::format(" {} {}", map.written.time_since_epoch().count(), map.size);
+std::vector<std::string*> map_files(Design& design) {
+  std::vector<std::string*> out;
+  add_map_files(design.texture, out);
+  for (std::string* file : {&design.finger.skin.map, &design.counterface.pin.roughness.map,
+                            &design.counterface.pen.roughness.map}) {
+    if (!file->empty()) out.push_back(file);
+  }
   return out;
+}
+
+std::string maps_state(Design design) {
+  std::string out;
+  for (const std::string* file : map_files(design)) {
+    const MapVersion version = map_version(*file);
+    out += fmt::format(" {} {}", version.written.time_since_epoch().count(), version.size);
+  }
+  return out;
+}
+
+std::string maps_state(const Finger& finger) {
+  Design design;
+  design.finger = finger;
+  return maps_state(std::move(design));
 }
 
 std::string designs_state(const std::string& folder) {
@@ -373,8 +402,7 @@ std::string designs_state(const std::string& folder) {
   for (const std::string& name : names) {
     try {
       const Design design = read_design(find_design(folder + "/" + name));
-      out += fmt::format("# {}\n{}{}\n", name, to_toml(design),
-                         maps_state(design.texture, design.finger));
+      out += fmt::format("# {}\n{}{}\n", name, to_toml(design), maps_state(design));
     } catch (const InputError&) {  // whoever needs it is told why
     }
   }

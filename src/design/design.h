@@ -77,10 +77,15 @@ std::string find_design(const std::string& name);
 // cases are named so in every door.
 std::string own_or_shipped(const std::string& file);
 
-// For the keys of work on disk that stands on them: which versions of its maps a surface and a skin
-// are of, and what the designs of a folder below those say, each as it resolves here and now. Those
+// The measured maps that a design names, where they stand in it: of its texture, its skin, the pin
+// and the pen.
+std::vector<std::string*> map_files(Design& design);
+
+// For the keys of work on disk that stands on them: which versions of its maps a design or a finger
+// is of, and what the designs of a folder below those say, each as it resolves here and now. Those
 // that do not read are left out.
-std::string maps_state(const Texture& texture, const Finger& finger);
+std::string maps_state(Design design);
+std::string maps_state(const Finger& finger);
 std::string designs_state(const std::string& folder);
 
 // Throws InputError with every mistake. A study file is a design too.

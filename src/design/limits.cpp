@@ -64,7 +64,9 @@ const std::vector<ConstraintKind>& constraint_kinds() {
   static const std::vector<ConstraintKind> kinds{
       {ShapeLimit{ShapeMargin::MinHole}, "min_hole", "um", true,
        "smallest hole or gap between features"},
-      {ShapeLimit{ShapeMargin::MinWall}, "min_wall", "um", true, "smallest wall or feature"},
+      {ShapeLimit{ShapeMargin::MinWall}, "min_wall", "um", true,
+       "smallest wall or feature; of a stack this, min_hole and aspect_ratio are of each part "
+       "alone"},
       {ShapeLimit{ShapeMargin::AspectRatio}, "aspect_ratio", "", false,
        "largest depth / smallest width of a hole"},
       {FilmLimit{}, "oxide_breakdown_margin", "", true,

@@ -16,6 +16,7 @@ namespace {
 struct NamedScan {
   std::string section;  // "texture.parts.1"
   ScanSource source;
+  Texture texture;  // that is made of it alone
 };
 
 void add_scans(const Texture& texture, const std::string& section, std::vector<NamedScan>& out) {
@@ -25,7 +26,44 @@ void add_scans(const Texture& texture, const std::string& section, std::vector<N
       add_scans((*parts)[i], fmt::format("{}.parts.{}", section, i), out);
     return;
   }
-  for (const ScanSource& source : facts(texture).scans) out.push_back({section, source});
+  for (const ScanSource& source : facts(texture).scans) out.push_back({section, source, texture});
+}
+
+// The step that a patch has at its border where the map leaves no room for all of its seam, unless
+// it is one as between neighbours: the larger one of both directions.
+std::optional<BorderSteps> step_of(const NamedScan& scan, const ScanChanges& changes,
+                                   const Grid& patch) {
+  const auto* map = std::get_if<Measured3d>(&scan.texture.kind);
+  const auto has_room = [](double whole, double side, double at) {
+    return 0.5 * (whole - side) + at >= (1 - 1e-9) * kSeam * side;
+  };
+  // What is taken as it is may have a wall at its border, and is not blended.
+  if (!map || changes.as_is ||
+      (has_room(changes.width, patch.lx, map->at_x) &&
+       has_room(changes.height, patch.ly, map->at_y)))
+    return std::nullopt;
+  try {
+    const auto [along_x, along_y] = border_steps(generate(scan.texture, patch));
+    const BorderSteps& larger = along_x.over > along_y.over ? along_x : along_y;
+    constexpr double kNoticed = 0.01;  // of the rms of the map: below is rounding
+    if (!larger.alike() && larger.over > kNoticed * changes.rms) return larger;
+  } catch (const InputError&) {  // whoever takes the patch says what is wrong with it
+  }
+  return std::nullopt;
+}
+
+// What is to be done about it.
+std::string step_text(const DesignScan& scan) {
+  ScanChanges cut = scan.changes;
+  cut.repeats = false;
+  return fmt::format(
+      "; the patch leaves no room for the tenth that is blended: at its border stands a step of "
+      "{:.3g} nm (root mean square; between neighbours {:.3g} nm); {}",
+      1e9 * scan.step->over, 1e9 * scan.step->beside,
+      scan.periods
+          ? "take a map that is 1.2 times as wide, or give the other parts a shorter period"
+          : fmt::format("take {}.patch = {:.4g} um or less, in the middle of the map", scan.section,
+                        1e6 * largest_patch(cut)));
 }
 
 }  // namespace
@@ -43,13 +81,16 @@ std::string text(const DesignScan& scan) {
                                    c.as_is ? "" : fmt::format(" ({}.at_x, at_y)", scan.section))
                      : fmt::format("a square of {:.4g} um is the texture ({}.patch, at_x, at_y)",
                                    1e6 * scan.taken, scan.section);
-    out += fmt::format(
-        "; of its {:.4g} x {:.4g} um {}{}", 1e6 * c.width, 1e6 * c.height, part,
-        c.as_is ? "" : ", blended along two borders with what lies beyond, so that it repeats");
+    out +=
+        fmt::format("; of its {:.4g} x {:.4g} um {}{}", 1e6 * c.width, 1e6 * c.height, part,
+                    c.as_is || scan.step
+                        ? ""
+                        : ", blended along two borders with what lies beyond, so that it repeats");
   } else if (sides.x > (1 + 1e-9) * c.width || sides.y > (1 + 1e-9) * c.height) {
     out += fmt::format("; repeated, it makes the simulated patch of {:.4g} x {:.4g} um",
                        1e6 * sides.x, 1e6 * sides.y);
   }
+  if (scan.step) out += step_text(scan);
   const double shorter = std::min(sides.x, sides.y);
   if (shorter > 0 && shorter < (1 - 1e-9) * kShortPatch) {
     out += fmt::format(
@@ -81,8 +122,9 @@ std::vector<DesignScan> scans_of(const Design& design) {
   const TextureFacts known = facts(design.texture);
   double taken = known.free_patch.exact.value_or(0);
   std::optional<UnitCell> periods;
+  constexpr int kPixels = 128;  // as a draft has them
+  const Grid patch = simulated_patch(design.texture, kPixels);
   if (taken > 0) {
-    const Grid patch = simulated_patch(design.texture, 16);  // its sides are the same on any pixels
     if (known.cell || std::max(patch.lx, patch.ly) > (1 + 1e-9) * taken)
       periods = UnitCell{patch.lx, patch.ly};
     taken = std::max(patch.lx, patch.ly);
@@ -93,7 +135,9 @@ std::vector<DesignScan> scans_of(const Design& design) {
   Mistakes mistakes;
   for (const NamedScan& scan : named) {
     mistakes.of([&] {
-      out.push_back({scan.source.file, changes_of_map(scan.source), taken, scan.section, periods});
+      const ScanChanges changes = changes_of_map(scan.source);
+      out.push_back(
+          {scan.source.file, changes, taken, scan.section, periods, step_of(scan, changes, patch)});
     });
   }
   if (const Skin skin = scene_of(design).finger.skin; !skin.map.empty())

@@ -20,6 +20,9 @@ struct DesignScan {
   // Sides of what is taken where they are whole periods, of another part of a stack or of the map
   // itself [m]; `taken` is the longer one.
   std::optional<UnitCell> periods{};
+  // Over the border of what is taken, where that is another step than between neighbours: the patch
+  // left no room for the seam that is blended, or the map does not repeat as it is said to.
+  std::optional<BorderSteps> step{};
 };
 
 // What was changed of it, and where a part alone is taken.

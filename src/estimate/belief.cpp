@@ -94,6 +94,8 @@ void add_belief(Response& response, const Scene& scene, const Texture& texture,
 }
 
 void state_belief(Response& response) {
+  take_felt_errors(response.belief.own, response.points);
+  for (BeliefRun& member : response.belief.members) take_felt_errors(member.run, response.points);
   for (std::size_t i = 0; i < response.points.size(); ++i) {
     for (const PointQuantity& quantity : kPointQuantities) {
       const auto values = belief_values_at(i, QuantityMetric{quantity.value}, response);

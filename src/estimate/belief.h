@@ -30,7 +30,8 @@ void add_belief(Response& response, const Scene& scene, const Texture& texture,
                 const Fidelity& fidelity, int skins = kMemberSkins);
 
 // Fills the error part `model` of every number from response.belief, which add_belief has made for
-// this response or for the same design at another fidelity.
+// this response or for the same design at another fidelity, and gives its runs the response's error
+// of the modulation (take_felt_errors).
 void state_belief(Response& response);
 
 // Why the uncertainty of finger and model cannot be stated, for people: the finger has neither a

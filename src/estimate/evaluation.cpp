@@ -22,8 +22,7 @@ Response evaluate_design(const Design& design, const EvaluationOptions& options)
                                                        .droplet_seeds = fidelity.droplet_seeds,
                                                        .threads = options.threads})
                                  : evaluate(scene, design.texture, fidelity);
-  for (ResponsePoint& p : response.points)
-    p.bridged_margin = bridged_margin(scene.surface, design.texture, scene.drive, p.source_voltage);
+  set_bridged_margins(response, scene, design.texture);
   if (options.model) add_belief(response, scene, design.texture, response.fidelity);
   // No uncertainty is counted twice: belief holds what the fit of the finger leaves open.
   if ((options.parameters || design.accuracy.parameters) && response.belief.members.empty())

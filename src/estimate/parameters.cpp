@@ -1,6 +1,7 @@
 #include "estimate/parameters.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "metrics/metrics.h"
 
@@ -22,6 +23,17 @@ Fidelity step_fidelity(const Fidelity& fidelity) {
   few.control_skins = 0;
   few.field_skins = 0;
   return few;
+}
+
+void take_felt_errors(Resampled& run, const std::vector<ResponsePoint>& response) {
+  const auto take = [&](std::vector<ResponsePoint>& points) {
+    for (std::size_t i = 0; i < std::min(points.size(), response.size()); ++i) {
+      const Measured& known = response[i].modulation;
+      if (known.value != 0) points[i].felt_error = known.se() / std::abs(known.value);
+    }
+  };
+  take(run.points);
+  for (std::vector<ResponsePoint>& points : run.without) take(points);
 }
 
 void add_parameter_errors(Response& response, const Scene& scene, const Texture& texture,
@@ -50,6 +62,10 @@ void add_parameter_errors(Response& response, const Scene& scene, const Texture&
       (response.points[i].*quantity.value).parts.parameters =
           step_error(*step_samples(out.steps, value));
     }
+  }
+  for (ParameterStep& step : out.steps) {
+    take_felt_errors(step.up, response.points);
+    take_felt_errors(step.down, response.points);
   }
 }
 

@@ -1,6 +1,8 @@
 // What the fit of the finger leaves open: its covariance carried to every number of a response.
 #pragma once
 
+#include <vector>
+
 #include "base/rooms.h"
 #include "forward/forward.h"
 #include "scene/uncertainty.h"
@@ -9,6 +11,11 @@ namespace papilla::estimate {
 
 // What the steps are run with: the load law, at most 8 skins and 128 pixels.
 Fidelity step_fidelity(const Fidelity& fidelity);
+
+// A run on few skins, without control or field skins, is as well known as the response that it is
+// moved from: `felt` there takes the response's own error of the modulation, in proportion. A
+// modulation of 0 has no such share. Eq. metrics.7
+void take_felt_errors(Resampled& run, const std::vector<ResponsePoint>& response);
 
 // Eq. accuracy.11: central differences over the steps, on common skins, offsets and droplets. Fills
 // response.parameters and the part `parameters` of every number. Cost: 2 n evaluations at

@@ -6,6 +6,7 @@
 #include "base/check.h"
 #include "base/units.h"
 #include "forward/electric_path.h"
+#include "numerics/statistics.h"
 #include "physics/electrostatics/breakdown.h"
 
 namespace papilla::estimate {
@@ -26,23 +27,23 @@ bool beyond(const ResponsePoint& point) {
 class VoltageSearch {
  public:
   VoltageSearch(const UndrivenPatches& patches, double target, double limit, VoltageEnd limited_by)
-      : patches_(patches), limited_by_(limited_by) {
+      : patches_(patches), limit_(limit), limited_by_(limited_by) {
     answer_.target = target;
     answer_.limit = limit;
   }
 
   VoltageAnswer run(double guess, bool areas) {
-    if (answer_.limit <= 0) {
+    if (limit_ <= 0) {
       answer_.end = VoltageEnd::NoDielectric;
       return answer_;
     }
-    double found = root(Estimator::Load, std::min(guess, answer_.limit));
+    double found = root(Estimator::Load, std::min(guess, limit_));
+    // Where the load law ends, by its own full contact or pull-in, solved areas may go on.
     if (areas && answer_.reached())
       found = root(Estimator::Area, found > 0 ? found : answer_.limit);
     if (!answer_.reached()) return answer_;
     if (found > 0) {
-      answer_.amplitude = amplitude(found);
-      answer_.modulation = last_.modulation.value;
+      take(found);
     } else {
       answer_.end = blocked_.sound() ? limited_by_ : VoltageEnd::ModelEnds;
       answer_.model = blocked_;
@@ -55,12 +56,14 @@ class VoltageSearch {
     double amplitude, modulation;
   };
 
-  // 0: below the target up to the limit.
+  // 0: below the target up to the limit of the answer, which is that of film or source, or where
+  // the model ends.
   double root(Estimator estimator, double guess) {
     low_ = {0, 0};
     high_ = {};
     blocked_ = {};
-    double ceiling = answer_.limit, v = guess;
+    double ceiling = limit_, v = guess;
+    answer_.limit = limit_;
     answer_.modulation = 0;
     for (;;) {
       if (++answer_.evaluations > kMaxEvaluations) {
@@ -68,15 +71,16 @@ class VoltageSearch {
         return 0;
       }
       last_ = patches_.drive(v, estimator);
-      const double m = last_.modulation.value;
-      if (last_.status.trouble == Trouble::ContactUnsolved ||
-          last_.status.trouble == Trouble::FieldUnsolved || last_.status.pull_in_undriven()) {
+      const ResponsePoint& point = last_.points.front();
+      const double m = point.modulation.value;
+      if (point.status.trouble == Trouble::ContactUnsolved ||
+          point.status.trouble == Trouble::FieldUnsolved || point.status.pull_in_undriven()) {
         answer_.end = VoltageEnd::Unsound;
-        answer_.model = last_.status;
+        answer_.model = point.status;
         return 0;
       }
-      if (beyond(last_)) {
-        blocked_ = last_.status;
+      if (beyond(point)) {
+        blocked_ = point.status;
         ceiling = v;
         if (ceiling - low_.amplitude < 5 * kAmplitudeTolerance * ceiling) {
           answer_.limit = ceiling;
@@ -125,31 +129,43 @@ class VoltageSearch {
       const double width = high_.amplitude - low_.amplitude;
       next = std::clamp(next, low_.amplitude + 0.02 * width, high_.amplitude - 0.02 * width);
     }
-    return std::min(next, ceiling == answer_.limit ? ceiling : 0.5 * (ceiling + here.amplitude));
+    return std::min(next, blocked_.sound() ? ceiling : 0.5 * (ceiling + here.amplitude));
   }
 
-  // Errors of the modulation through the slope of the last two samples.
-  Measured amplitude(double v) const {
+  // The answer at what was driven last. What moves the modulation there, an error or a skin that is
+  // left out, moves the amplitude by that over the slope of the last two samples. Eq. metrics.6
+  void take(double v) {
+    const ResponsePoint& point = last_.points.front();
     double power = 2;
     if (low_.amplitude > 0 && low_.modulation > 0 && high_.amplitude > low_.amplitude &&
         high_.modulation > low_.modulation) {
       power =
           std::log(high_.modulation / low_.modulation) / std::log(high_.amplitude / low_.amplitude);
     }
-    const double scale = v / (std::max(power, 0.25) * answer_.target);
-    ErrorParts e = last_.modulation.parts;
+    const double scale = v / (std::max(power, 0.25) * answer_.target);  // dV/dm [V]
+    ErrorParts e = point.modulation.parts;
     e.sampling *= scale;
     for (const ErrorOrigin& origin : kErrorOrigins) {
       if (auto& part = e.*origin.part) *part *= scale;
     }
     e.solver = std::hypot(e.solver.value_or(0), kAmplitudeTolerance * v);
-    return {v, e};
+    // A skin without which there is more modulation lowers the amplitude.
+    for (const auto& others : last_.without)
+      answer_.without.push_back(v -
+                                scale * (others.front().modulation.value - point.modulation.value));
+    if (answer_.without.size() > 1)
+      e.sampling = mean_estimate(jackknife_samples(v, answer_.without)).se;
+    answer_.amplitude = {v, e};
+    answer_.modulation = point.modulation.value;
+    answer_.field_correction = point.field_correction;
+    answer_.field_error = point.field_error;
   }
 
   const UndrivenPatches& patches_;
-  VoltageEnd limited_by_;
+  double limit_;           // of film or source [V]
+  VoltageEnd limited_by_;  // which of them
   VoltageAnswer answer_;
-  ResponsePoint last_;
+  Resampled last_;  // one humidity
   Sample low_{}, high_{};
   ModelStatus blocked_;  // what the model said above the ceiling
 };
@@ -179,10 +195,13 @@ VoltageAnswer voltage_with_its_field(UndrivenPatches& patches, double target, do
 
 double breakdown_voltage(const Surface& surface, const Texture& texture, const Drive& drive) {
   const double radius = surface.electrode_edge_radius;
-  const Relief relief = facts(texture).relief;
+  const TextureFacts known = facts(texture);
+  const Relief& relief = known.relief;
   const bool edges = radius > 0 && relief.present;
-  const double deepest = relief.planes ? std::max(0.0, -relief.planes->low) : 0;
-  return dielectric_margin(surface.thinnest_layers(deepest), 1, edges ? radius : kInfinity,
+  const FilmGround ground{.deepest = relief.planes ? std::max(0.0, -relief.planes->low) : 0,
+                          .height = relief.height().value_or(kInfinity),
+                          .steepest = known.steepest.value_or(0)};
+  return dielectric_margin(surface.thinnest_layers(ground), 1, edges ? radius : kInfinity,
                            film_divider(surface, drive));  // 1 V
 }
 
@@ -198,6 +217,11 @@ double bridged_margin(const Surface& surface, const Texture& texture, const Driv
   return breakdown_voltage(surface, texture, drive) / amplitude;
 }
 
+void set_bridged_margins(Response& response, const Scene& scene, const Texture& texture) {
+  for (ResponsePoint& p : response.points)
+    p.bridged_margin = bridged_margin(scene.surface, texture, scene.drive, p.source_voltage);
+}
+
 double amplitude_limit(const Scene& scene, const Texture& texture) {
   const double source = scene.drive.source_compliance;
   return std::min({breakdown_voltage(scene.surface, texture, scene.drive),
@@ -209,6 +233,15 @@ void add_voltages(Response& response, const Scene& scene, const Texture& texture
   const double limit = amplitude_limit(scene, texture);
   const bool source = limit == scene.drive.source_compliance;
   for (ResponsePoint& point : response.points) {
+    if (!scene.touch.conducts) {
+      for (double target : targets) {
+        VoltageAnswer none;
+        none.target = target;
+        none.end = VoltageEnd::NoField;
+        point.voltages.push_back(none);
+      }
+      continue;
+    }
     Scene one = scene;
     one.environment.relative_humidity = {point.relative_humidity};
     one.environment.weights.clear();

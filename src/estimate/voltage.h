@@ -8,8 +8,9 @@
 
 namespace papilla::estimate {
 
-// Amplitude at which the dielectric breaks down, edges of the electrode's stated radius included
-// (Eq. electrostatics.9) [V]; 0 without a dielectric. Layers divide it as they do at the drive's
+// Amplitude at which the dielectric breaks down, edges of the electrode's stated radius and side
+// walls of the texture's stated slopes included (Eq. electrostatics.9) [V]; 0 without a dielectric,
+// and where directional layers leave a wall bare. Layers divide it as they do at the drive's
 // frequency.
 double breakdown_voltage(const Surface& surface, const Texture& texture, const Drive& drive);
 
@@ -18,6 +19,9 @@ double breakdown_voltage(const Surface& surface, const Texture& texture, const D
 // say.
 double bridged_margin(const Surface& surface, const Texture& texture, const Drive& drive,
                       double amplitude);
+
+// Sets that of every point of a response, at the voltage of its source.
+void set_bridged_margins(Response& response, const Scene& scene, const Texture& texture);
 
 // Largest amplitude a design may be driven with [V]: up to its breakdown, or what the source gives.
 double amplitude_limit(const Scene& scene, const Texture& texture);
@@ -28,9 +32,9 @@ double amplitude_limit(const Scene& scene, const Texture& texture);
 // a rising function to 1e-3 of the amplitude, by secants in logarithms within a bracket: first with
 // the load estimator on the gap at rest, then, where the fidelity measures areas, with contact
 // solved under the drive. Not reached: the status names what came first (breakdown, the source,
-// pull-in, a bare electrode, a trouble of the model) and the highest modulation. Cost: contact at
-// rest once more, and 5 to 10 times field and water; areas: 3 to 5 more solves per patch. Eq.
-// metrics.6
+// pull-in, a bare electrode, what touches being no conductor, a trouble of the model) and the
+// highest modulation. Cost: contact at rest once more, and 5 to 10 times field and water; areas: 3
+// to 5 more solves per patch. Eq. metrics.6
 void add_voltages(Response& response, const Scene& scene, const Texture& texture,
                   const Fidelity& fidelity, std::span<const double> targets);
 

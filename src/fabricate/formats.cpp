@@ -175,6 +175,20 @@ constexpr ExportFormat kFormats[]{
 
 std::span<const ExportFormat> export_format_table() { return kFormats; }
 
+std::string without_effect(std::span<const ExportFormat> written, const std::string& setting,
+                           const std::string& formats,
+                           const std::function<bool(const ExportFormat&)>& depends,
+                           const std::string& of_no_file) {
+  if (std::any_of(written.begin(), written.end(), depends)) return {};
+  std::vector<std::string> names;
+  for (const ExportFormat& format : export_format_table()) {
+    if (depends(format)) names.emplace_back(format.name);
+  }
+  if (names.empty()) return fmt::format("{}: {}; leave it out", setting, of_no_file);
+  return fmt::format("{} is of {}, and no such file is written: name one in {}, or leave {} out",
+                     setting, join_names(names), formats, setting);
+}
+
 const std::vector<std::string>& export_formats() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> out;

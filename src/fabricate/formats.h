@@ -2,6 +2,7 @@
 // messages and the reference read.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,6 +47,14 @@ const ExportFormat& find_export_format(const std::string& name);
 // The formats that an export writes: those that its options name, or all that the texture and the
 // polarity allow. Throws InputError for one that cannot be written.
 std::vector<ExportFormat> chosen_formats(const Texture& texture, const ExportOptions& options);
+
+// Why a setting has no effect on the files that are written; empty: one of them depends on it.
+// setting, formats: their names as the user knows them; depends: whether a format does; of_no_file:
+// why none does of this texture, where that may be.
+std::string without_effect(std::span<const ExportFormat> written, const std::string& setting,
+                           const std::string& formats,
+                           const std::function<bool(const ExportFormat&)>& depends,
+                           const std::string& of_no_file = "");
 
 // "exr", "tiff" and so on, in the order of the table.
 const std::vector<std::string>& export_formats();

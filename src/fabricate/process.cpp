@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "base/constants.h"
@@ -187,13 +188,20 @@ double exposed_width(const FeatureArray& mask, double blur) {
   return exposed_disc(mask, blur, std::max(0.0, 0.5 * mask.width - kFar * blur), high);
 }
 
-MaskedArray masked(const Texture& texture, const Process& process) {
+namespace {
+
+// Lengths of the master over those of the surface, before an imprint shrinks. Eq. fabrication.6
+double stretch(const Process& process) {
+  return process.compensate ? 1 / (1 - process.shrinkage) : 1;
+}
+
+// The mask of one array whose period is drawn so [m].
+MaskedArray masked_at(const Texture& texture, const Process& process, double period) {
   MaskedArray out{texture, {}, {}, {}, 0, {}};
   const TextureFacts known = facts(texture);
   out.wanted = *array_of(known);
   out.wall = wall_of(out.texture);
-  // In the master, before an imprint shrinks. Eq. fabrication.6
-  const double along = process.compensate ? 1 / (1 - process.shrinkage) : 1,
+  const double along = stretch(process),
                up = process.compensate ? 1 / (1 - process.height_shrinkage) : 1;
   out.etch = up * out.wall.depth;
   // Walls of the master that an imprint makes those of the design.
@@ -201,7 +209,7 @@ MaskedArray masked(const Texture& texture, const Process& process) {
   out.etched = {out.etch, process.wall_angle > 0 ? process.wall_angle : steep,
                 process.edge_radius > 0 ? process.edge_radius : along * out.wall.edge_radius};
   out.mask = out.wanted;
-  out.mask.period = 1e-9 * std::round(1e9 * along * out.wanted.period);
+  out.mask.period = period;
   out.mask.width = along * out.wanted.width;
   const double opening = process.resist_bias + process.undercut * out.etch,
                wider = (out.wanted.deep ? 2 : -2) * opening;
@@ -225,6 +233,42 @@ MaskedArray masked(const Texture& texture, const Process& process) {
                                  out.wanted.drawn));
   check_rims(out, process, resist + wider);
   return out;
+}
+
+}  // namespace
+
+// Each period rounded alone would let the masks of one surface slip against each other by up to a
+// nanometre a period.
+std::vector<MaskedArray> masked(const std::vector<Texture>& arrays, const Process& process) {
+  constexpr double kNanometre = 1e-9, kMostOff = 0.01;  // of the longest period
+  double longest = 0;
+  for (const Texture& array : arrays) longest = std::max(longest, facts(array).period());
+  const double wanted = stretch(process) * longest;
+  const auto periods_of = [&](const Texture& array) {
+    return std::lround(longest / facts(array).period());
+  };
+  // The least number of nanometres that every part divides in whole ones.
+  long common = 1;
+  for (const Texture& array : arrays) {
+    common = std::lcm(common, periods_of(array));
+    if (static_cast<double>(common) * kNanometre > 2 * kMostOff * wanted && common > 1) {
+      throw InputError(fmt::format(
+          "periods of its parts have no common grid of whole nanometres within {:g} % of {:.6g} "
+          "um; take periods each of which is a whole number of the next shorter one",
+          100 * kMostOff, 1e6 * longest));
+    }
+  }
+  const double step = static_cast<double>(common) * kNanometre,
+               drawn = step * std::max(1.0, std::round(wanted / step));
+  std::vector<MaskedArray> out;
+  for (const Texture& array : arrays) {
+    out.push_back(masked_at(array, process, drawn / static_cast<double>(periods_of(array))));
+  }
+  return out;
+}
+
+MaskedArray masked(const Texture& texture, const Process& process) {
+  return masked(std::vector{texture}, process).front();
 }
 
 }  // namespace papilla::fabricate

@@ -49,5 +49,9 @@ double exposed_width(const FeatureArray& mask, double blur);
 // it: nothing is left of the features, or of what is between them; and where the rims of the etch
 // leave nothing of the land.
 MaskedArray masked(const Texture& texture, const Process& process);
+// Those of the arrays that a surface is the sum of. The periods drawn are whole fractions of the
+// longest, as those of the surface are, so that the masks stay in register over a whole pad. Throws
+// InputError where whole nanometres make no such periods near the wanted ones.
+std::vector<MaskedArray> masked(const std::vector<Texture>& arrays, const Process& process);
 
 }  // namespace papilla::fabricate

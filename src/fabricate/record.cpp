@@ -109,14 +109,6 @@ class RecordReader {
   std::string folder_, path_;
 };
 
-// The names of the maps that a texture is made of, where they stand in it.
-void add_maps(Texture& texture, std::vector<std::string*>& out) {
-  if (auto* measured = std::get_if<Measured3d>(&texture.kind)) out.push_back(&measured->file);
-  if (std::vector<Texture>* parts = roles(texture).parts) {
-    for (Texture& part : *parts) add_maps(part, out);
-  }
-}
-
 }  // namespace
 
 std::optional<double> in_pixels(const Limited& on, const PixelMargins& pixels) {
@@ -135,14 +127,8 @@ std::optional<double> in_pixels(const Limited& on, const PixelMargins& pixels) {
 
 Design with_own_maps(const Design& design, const Folder& folder) {
   Design out = design;
-  std::vector<std::string*> maps;
-  add_maps(out.texture, maps);
-  for (std::string* other : {&out.finger.skin.map, &out.counterface.pin.roughness.map,
-                             &out.counterface.pen.roughness.map})
-    maps.push_back(other);
-  std::erase_if(maps, [](const std::string* map) { return map->empty(); });
   std::vector<std::pair<std::string, std::string>> copies;  // all read before any is written
-  for (std::string* map : maps) {
+  for (std::string* map : map_files(out)) {
     const MapName named = map_name(*map);
     const std::string number = copies.empty() ? "" : fmt::format("_{}", copies.size() + 1);
     copies.emplace_back("map" + number + std::filesystem::path(named.file).extension().string(),
@@ -155,6 +141,9 @@ Design with_own_maps(const Design& design, const Folder& folder) {
 
 ExportRecord record_of(const Study& study, const ExportOptions& options, const Export& result) {
   ExportRecord out{study.design, options, result.files, {}};
+  // No file is made or judged by what is not known of the finger, and the belief lies elsewhere: a
+  // record that named it could not be read on another machine.
+  out.design.finger.belief.clear();
   out.options.formats.clear();
   for (const ExportedFile& file : result.files) {
     if (file.format != kDesignFormat) out.options.formats.push_back(file.format);

@@ -19,7 +19,8 @@ inline constexpr const char* kRecordName = "export.json";
 inline constexpr const char* kDesignFormat = "design";
 
 struct ExportRecord {
-  Design design;          // as asked for: the process is undone in the files alone
+  // As asked for: the process is undone in the files alone. Without the belief of its finger.
+  Design design;
   ExportOptions options;  // formats: those of the files
   std::vector<ExportedFile> files;
   std::vector<Constraint> limits;  // of the study, as far as files show them

@@ -37,15 +37,17 @@ std::vector<FileVerdict> verify_folder(const std::string& folder, const std::str
 // --- as a surface that is felt ---
 
 struct Verification {
-  PixelMargins pixels;              // smallest hole and wall of the file
-  std::string merit;                // "mean(modulation)", of undriven designs "mean(friction)"
-  double design = 0, file = 0;      // the merit of each, on common skins
-  double loss = 0;                  // |file - design| / |design|
-  std::vector<std::string> faults;  // what is beyond a limit; empty: sound
+  PixelMargins pixels;               // smallest hole and wall of the file
+  std::string merit;                 // "mean(modulation)", of undriven designs "mean(friction)"
+  double design = 0, file = 0;       // the merit of each, on common skins
+  double loss = 0;                   // |file - design| / |design|
+  std::vector<std::string> faults;   // what is beyond a limit; empty: sound
+  std::vector<std::string> notes{};  // what no limit speaks of, and a maker should know
 };
 
 // File: heights written by export_design. Limits: the constraints min_hole and
-// min_wall of the study, kept to a pixel; the loss of merit at most `tolerance`. Cost: two
+// min_wall of the study, kept to a pixel (of a stack each part by itself: a place between the
+// features of two parts is noted); the loss of merit at most `tolerance`. Cost: two
 // evaluations at draft level. width [m]: where the file does not say. Throws InputError for a file
 // that cannot be read.
 Verification verify_export(const Study& study, const std::string& file, double tolerance,

@@ -30,7 +30,9 @@ struct Etch {
   double depth = 0;  // [m]
   std::optional<MaskedArray> array;
   std::vector<Polygon> contours;  // of one cell
-  double cell_x = 0, cell_y = 0;  // [m]
+  // What repeats of all etches of the design together, as drawn [m]; y is 0 where all of it is
+  // alike along y.
+  double cell_x = 0, cell_y = 0;
 };
 
 // The arrays that a texture is a sum of; empty: it is none, or flat.
@@ -96,11 +98,17 @@ std::vector<Etch> etches_of(const Texture& texture, const WaferList& list) {
   if (!facts(texture).relief.present) return {};
   const std::vector<Texture> arrays = arrays_of(texture);
   if (arrays.empty()) return contour_etches(texture, list.wafer.levels, list.process);
-  std::vector<Etch> out;
-  for (const Texture& part : arrays) {
-    const MaskedArray array = masked(part, list.process);
-    out.push_back({array.etch, array, {}, 0, 0});
+  const std::vector<MaskedArray> masks = masked(arrays, list.process);
+  const UnitCell cell = *facts(texture).cell;
+  double longest = 0;
+  bool lines = true;
+  for (const MaskedArray& array : masks) {
+    longest = std::max(longest, array.mask.period);
+    lines = lines && array.mask.shape == FeatureArray::Shape::Line;
   }
+  std::vector<Etch> out;
+  for (const MaskedArray& array : masks)
+    out.push_back({array.etch, array, {}, longest, lines ? 0 : longest * cell.y / cell.x});
   return out;
 }
 
@@ -160,15 +168,29 @@ void invert_pillars(LayoutCell& cell, const FeatureArray& mask) {
   cell.polygons = around_disc(disc, {{middle, 0, 0, middle}, {whole, whole, 0, 0}});
 }
 
+// Whole cells along a side of the pad, the number nearest to it, around its middle: the same for
+// all masks of a design, which are in register by it. A cell of 0: all of the side.
+struct Side {
+  Side(double pad, double cell)
+      : cells(cell > 0 ? std::max(1L, std::lround(pad / cell)) : 1),
+        length(cell > 0 ? static_cast<double>(cells) * cell : pad),
+        begin(-on_nanometres(0.5 * length)) {}
+
+  long cells;
+  double length;       // [m]
+  std::int32_t begin;  // [nm]
+};
+
 void move_by(LayoutCell& cell, std::int32_t x, std::int32_t y) {
   for (LayoutReference& r : cell.references) r.x += x, r.y += y;
 }
 
 // Cells of an array over the pad, the last of them the pad around the origin.
-std::vector<LayoutCell> array_cells(const std::string& name, const MaskedArray& array, int layer,
+std::vector<LayoutCell> array_cells(const std::string& name, const Etch& etch, int layer,
                                     const WaferShape& shape) {
-  ArrayDrawing drawing =
-      draw_array(array.mask, shape.pad_width, shape.pad_height, shape.facet_error);
+  const MaskedArray& array = *etch.array;
+  const Side along_x(shape.pad_width, etch.cell_x), along_y(shape.pad_height, etch.cell_y);
+  ArrayDrawing drawing = draw_array(array.mask, along_x.length, along_y.length, shape.facet_error);
   std::vector<LayoutCell>& cells = drawing.layout.cells;
   const bool line = array.mask.shape == FeatureArray::Shape::Line;
   if (!array.mask.deep && line) throw InputError("ridges have no mask of their own; take grooves");
@@ -179,9 +201,7 @@ std::vector<LayoutCell> array_cells(const std::string& name, const MaskedArray& 
     for (LayoutPolygon& p : cell.polygons) p.layer = layer;
     for (LayoutReference& r : cell.references) r.cell = name + "_" + r.cell;
   }
-  const LayoutArray& a = drawing.array;
-  move_by(cells.back(), -on_nanometres(0.5 * static_cast<double>(a.columns) * a.pitch_x),
-          -on_nanometres(0.5 * static_cast<double>(a.rows) * a.pitch_y));
+  move_by(cells.back(), along_x.begin, along_y.begin);
   return std::move(cells);
 }
 
@@ -190,14 +210,13 @@ std::vector<LayoutCell> contour_cells(const std::string& name, const Etch& etch,
   LayoutCell cell{name + "_CELL", {}, {}};
   for (const Polygon& p : etch.contours) cell.polygons.push_back({layer, p});
   const std::int32_t step_x = on_nanometres(etch.cell_x), step_y = on_nanometres(etch.cell_y);
-  const long columns = std::max(1L, std::lround(1e9 * shape.pad_width / step_x)),
-             rows = std::max(1L, std::lround(1e9 * shape.pad_height / step_y));
+  const Side along_x(shape.pad_width, 1e-9 * step_x), along_y(shape.pad_height, 1e-9 * step_y);
   LayoutCell pad{name, {}, {}};
   pad.references.push_back({.cell = cell.name,
-                            .x = static_cast<std::int32_t>(-columns * step_x / 2),
-                            .y = static_cast<std::int32_t>(-rows * step_y / 2),
-                            .columns = columns,
-                            .rows = rows,
+                            .x = along_x.begin,
+                            .y = along_y.begin,
+                            .columns = along_x.cells,
+                            .rows = along_y.cells,
                             .step_x = step_x,
                             .step_y = step_y,
                             .array = true});
@@ -270,9 +289,9 @@ class Drawing {
                          (plan_.list.process.compensate ? 1 - plan_.list.process.shrinkage : 1)
                    : 1e-9 * std::round(1e9 * etch.cell_x);
     if (std::abs(made - wanted) < 1e-13) return;
-    out_.notes.push_back(
-        fmt::format("{}: the period of {:.8g} nm is not on the 1 nm grid of layouts: {:.8g} nm",
-                    treatment.name, 1e9 * wanted, 1e9 * made));
+    out_.notes.push_back(fmt::format(
+        "{}: the period of {:.8g} nm comes out as {:.8g} nm: layouts have a grid of 1 nm",
+        treatment.name, 1e9 * wanted, 1e9 * made));
   }
   void number_levels() {
     struct Key {
@@ -323,9 +342,9 @@ class Drawing {
     Mistakes mistakes;
     for (const Ordered& e : etches_) {
       mistakes.of([&] {
-        std::vector<LayoutCell> cells =
-            e.etch.array ? array_cells(e.cell, *e.etch.array, level_of(e), shape_)
-                         : contour_cells(e.cell, e.etch, level_of(e), shape_);
+        std::vector<LayoutCell> cells = e.etch.array
+                                            ? array_cells(e.cell, e.etch, level_of(e), shape_)
+                                            : contour_cells(e.cell, e.etch, level_of(e), shape_);
         check_reach(plan_.treatments[e.treatment].name, cells.back());
         if (e.etch.array) {
           out_.arrays.push_back(

@@ -158,10 +158,20 @@ Optics screen(const Texture& texture, const OpticalMedia& media, const Light& li
 Optics rigorous(const FeatureArray& array, const TextureFacts& known, const OpticalMedia& media,
                 const View& view, const Light& light) {
   Optics out = lattice_look(array, media, light.meters);
-  // Disorder of a lattice that diffracts little is that of its layer.
+  // Disorder of a lattice that diffracts little is that of its layer, without what the plate
+  // scatters: the lattice's look has that. Eq. optics.7
   if (known.open_share && known.period() < finest_period(media.index, view)) {
-    const double scattered = layer(array, known, media, view, light).haze;
-    out.haze = 1 - (1 - out.haze) * (1 - scattered);
+    Light along{.wavelengths = light.wavelengths, .meters = light.meters};
+    along.meters.inner_haze = 0;
+    const Optics disordered = layer(array, known, media, view, along);
+    for (std::size_t k = 0; k < out.spectrum.size(); ++k) {
+      SpectrumPoint& p = out.spectrum[k];
+      const double kept = 1 - disordered.spectrum[k].haze;
+      p.haze = 1 - (1 - p.haze) * kept;
+      p.specular *= kept;
+      p.transmitted *= kept;
+    }
+    photopic_means(out, along);
   }
   return out;
 }

@@ -104,16 +104,6 @@ void add_measured_error(const MeasuredError& error, std::size_t humidity, Respon
   }
 }
 
-// The results without each skin, by the load law of all.
-std::vector<std::vector<PatchResult>> all_but_each(const std::vector<PatchResult>& results) {
-  std::vector<std::vector<PatchResult>> out;
-  for (std::size_t k = 0; k < results.size(); ++k) {
-    out.push_back(results);
-    out.back().erase(out.back().begin() + static_cast<std::ptrdiff_t>(k));
-  }
-  return out;
-}
-
 }  // namespace
 
 PatchCosts PatchSet::costs(int first) const {
@@ -214,24 +204,14 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
   const Environment& air = scene.environment;
   if (set.skins() > 1) response.without.resize(static_cast<std::size_t>(set.skins()));
   for (std::size_t i = 0; i < air.relative_humidity.size(); ++i) {
-    const auto point_of = [&](const std::vector<PatchResult>& patches) {
-      return response_point(setting, air.relative_humidity[i],
-                            air.weights.empty() ? 1 : air.weights[i], set.bridges[i], patches);
-    };
-    const std::vector<PatchResult>& patches = set.results[i];
-    response.points.push_back(point_of(patches));
-    std::vector<std::vector<PatchResult>> others;
-    if (!set.solved.empty()) others = without_each(set.bridges[i], set.solved[i]);
-    const bool by_own_laws = !others.empty();
-    if (!by_own_laws) others = all_but_each(patches);
-    std::vector<ResponsePoint> without;
+    std::vector<std::vector<PatchResult>> by_own_laws;
+    if (!set.solved.empty()) by_own_laws = without_each(set.bridges[i], set.solved[i]);
+    SkinPoints points =
+        skin_points(setting, air.relative_humidity[i], air.weights.empty() ? 1 : air.weights[i],
+                    set.bridges[i], set.results[i], std::move(by_own_laws));
+    response.points.push_back(std::move(points.all));
     for (std::size_t k = 0; k < response.without.size(); ++k)
-      without.push_back(point_of(others[k]));
-    if (by_own_laws) take_sampling(response.points.back(), without);
-    for (std::size_t k = 0; k < response.without.size(); ++k) {
-      response.without[k].push_back(std::move(without[k]));
-      response.without[k].back().samples = {};
-    }
+      response.without[k].push_back(std::move(points.without[k]));
     add_field_error(set.field[i], load_exponents(fidelity.load_exponent, scene.touch.coefficient),
                     response.points.back());
     for (const MeasuredError& error : set.errors)

@@ -70,6 +70,16 @@ std::string source_at_compliance(const Scene& scene) {
       humidities, 1e3 * scene.drive.current, scene.drive.source_compliance);
 }
 
+// The impedance is that of a spectrum, and a pin by a map has none.
+std::string mapped_under_current(const Scene& scene) {
+  const Finger& finger = scene.finger;
+  const bool current = scene.drive.driven() && scene.drive.control == DriveControl::Current;
+  if (!current || finger.skin.map.empty() || finger.macro.ridge_rms > 0) return {};
+  return "under a current the voltage is that of the film alone: the roughness of the map is not "
+         "in the impedance (Eq. coupling.4), so that voltage and pull come out too small; state "
+         "roughness.rms in place of the map, or drive by voltage";
+}
+
 // Water on a surface that it nearly wets: caps so flat that they meet where they are laid down, and
 // merge into a few large drops, where the film that they are would fill the narrowest gaps.
 std::string nearly_wetting(const Scene& scene, bool water) {
@@ -381,7 +391,8 @@ double Plan::seconds() const {
   return sum;
 }
 
-Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
+Plan make_plan(const Scene& given, const Texture& texture, const Fidelity& fidelity) {
+  const Scene scene = in_its_state(given);
   Plan plan;
   set_resolution(plan, scene.finger.skin, texture, fidelity);
   const std::vector<double>& humidities = scene.environment.relative_humidity;
@@ -395,8 +406,9 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
   plan.water =
       std::any_of(setting.water.begin(), setting.water.end(), [](double v) { return v > 0; });
   plan.field = scene.drive.driven() && scene.touch.conducts;
-  for (std::string said : {direct_voltage(scene), source_at_compliance(scene),
-                           sliding_direction(texture), nearly_wetting(scene, plan.water)})
+  for (std::string said :
+       {direct_voltage(scene), source_at_compliance(scene), mapped_under_current(scene),
+        sliding_direction(texture), nearly_wetting(scene, plan.water)})
     if (!said.empty()) plan.warnings.push_back(std::move(said));
   plan.retention = plan.water && scene.finger.water.hysteresis > 0 && retention_counts(scene);
   plan.traction_solves = fidelity.estimator == Estimator::Area && (plan.water || plan.field);

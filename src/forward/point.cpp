@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/constants.h"
 #include "forward/electric_path.h"
@@ -177,8 +178,31 @@ void rub_by_load(ResponsePoint& point, double coefficient, double patches_per_fi
   point.modulation.parts.sampling = gain.se;
 }
 
+// Shares of friction before and under the drive that stand on the solved contact.
+struct OfContact {
+  double off = 1, on = 1;
+
+  double of(Measured PointQuantities::*quantity) const {
+    if (quantity == &PointQuantities::friction_off) return off;
+    const bool driven =
+        quantity == &PointQuantities::friction_on || quantity == &PointQuantities::modulation;
+    return driven ? on : 1;
+  }
+};
+
+// Eq. friction.4: a coefficient on the load that is given needs no contact; attractions and
+// retention do.
+OfContact of_contact(const ResponsePoint& point, double coefficient, double patches_per_finger) {
+  const double by_load = coefficient * patches_per_finger * point.samples.preload;
+  const auto share = [&](const Measured& friction) {
+    return friction.value > 0 ? std::min(std::abs(1 - by_load / friction.value), 1.0) : 1;
+  };
+  return {share(point.friction_off), share(point.friction_on)};
+}
+
 // Eq. accuracy.1
-void add_solver_errors(ResponsePoint& point, Patches patches, const LoadExponents& exponents) {
+void add_solver_errors(ResponsePoint& point, Patches patches, const LoadExponents& exponents,
+                       const OfContact& shares) {
   double certificate = 0, residual = 0;
   for (const PatchResult& p : patches) {
     certificate = std::max(certificate, p.certificate);
@@ -186,7 +210,8 @@ void add_solver_errors(ResponsePoint& point, Patches patches, const LoadExponent
   }
   // An attraction that is off by a share of the load moves the area by that times beta.
   const auto relative = [&](Measured PointQuantities::*quantity) {
-    return std::hypot(contact_error(certificate), exponents.of(quantity) * residual);
+    return std::hypot(shares.of(quantity) * contact_error(certificate),
+                      exponents.of(quantity) * residual);
   };
   for (const PointQuantity& q : kPointQuantities) {
     Measured& m = point.*q.value;
@@ -235,15 +260,21 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
     for (double& area : *samples) area *= setting.area_factor;
   add_friction(point, shear_strength(scene, relative_humidity) * carrying, areas, retention,
                plan.field);
-  if (scene.touch.coefficient > 0)
+  OfContact solved;
+  if (scene.touch.coefficient > 0) {
     rub_by_load(point, scene.touch.coefficient, patches_per_finger, retention, plan.field);
+    solved = of_contact(point, scene.touch.coefficient, patches_per_finger);
+  }
   const LoadExponents exponents =
       load_exponents(setting.fidelity.load_exponent, scene.touch.coefficient);
-  add_solver_errors(point, patches, exponents);
+  add_solver_errors(point, patches, exponents, solved);
   if (plan.water) add_water_band(point, patches, scene.model.water, plan.grid, exponents);
   return point;
 }
 
+namespace {
+
+// The sampling part of every number from those of the point without each skin.
 void take_sampling(ResponsePoint& point, std::span<const ResponsePoint> without) {
   for (const PointQuantity& q : kPointQuantities) {
     Measured& number = point.*q.value;
@@ -251,6 +282,35 @@ void take_sampling(ResponsePoint& point, std::span<const ResponsePoint> without)
     for (const ResponsePoint& p : without) of_others.push_back((p.*q.value).value);
     number.parts.sampling = mean_estimate(jackknife_samples(number.value, of_others)).se;
   }
+}
+
+// The results without each skin, by the load law of all.
+std::vector<std::vector<PatchResult>> all_but_each(const std::vector<PatchResult>& results) {
+  std::vector<std::vector<PatchResult>> out;
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    out.push_back(results);
+    out.back().erase(out.back().begin() + static_cast<std::ptrdiff_t>(k));
+  }
+  return out;
+}
+
+}  // namespace
+
+SkinPoints skin_points(const PointSetting& setting, double relative_humidity, double weight,
+                       const ScaleBridge& bridge, const std::vector<PatchResult>& patches,
+                       std::vector<std::vector<PatchResult>> by_own_laws) {
+  const auto point_of = [&](const std::vector<PatchResult>& some) {
+    return response_point(setting, relative_humidity, weight, bridge, some);
+  };
+  SkinPoints out{point_of(patches), {}};
+  if (patches.size() < 2) return out;
+  const bool refitted = !by_own_laws.empty();
+  for (const auto& others : refitted ? std::move(by_own_laws) : all_but_each(patches)) {
+    out.without.push_back(point_of(others));
+    out.without.back().samples = {};
+  }
+  if (refitted) take_sampling(out.all, out.without);
+  return out;
 }
 
 void note_water(ResponsePoint& point, const SkinWater& water) {

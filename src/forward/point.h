@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "base/rooms.h"
 #include "forward/response.h"
@@ -25,9 +26,17 @@ struct PointSetting {
 ResponsePoint response_point(const PointSetting& setting, double relative_humidity, double weight,
                              const ScaleBridge& bridge, std::span<const PatchResult> patches);
 
-// The sampling part of every number from those of the point without each skin: the skins of a load
-// law are common to all patches, which the patches' scatter does not show.
-void take_sampling(ResponsePoint& point, std::span<const ResponsePoint> without);
+// The point of all skins, and with each of them left out (none of a single one; `samples` empty).
+struct SkinPoints {
+  ResponsePoint all;
+  std::vector<ResponsePoint> without;
+};
+// by_own_laws: the results without each skin by load laws that are refitted (`without_each`); then
+// the sampling parts are of those, as the skins of a law are common to all patches, which the
+// patches' scatter does not show. Empty: the results less one.
+SkinPoints skin_points(const PointSetting& setting, double relative_humidity, double weight,
+                       const ScaleBridge& bridge, const std::vector<PatchResult>& patches,
+                       std::vector<std::vector<PatchResult>> by_own_laws);
 
 // The state of the water where nothing else is wrong: next to no open gap left, so that the pull
 // hangs on single pixels; a humidity beyond those of the volumes, which are continued.

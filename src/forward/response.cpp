@@ -54,8 +54,10 @@ std::string text(const VoltageAnswer& answer) {
   switch (answer.end) {
     case VoltageEnd::Reached:
       return "reached";
+    case VoltageEnd::NoField:
+      return "what touches does not conduct: no field reaches it";
     case VoltageEnd::NoDielectric:
-      return "no dielectric: contact would short the drive";
+      return "no dielectric, or none on side walls: contact would short the drive";
     case VoltageEnd::Breakdown:
       return fmt::format("the dielectric breaks down at {:.4g} V", answer.limit);
     case VoltageEnd::SourceEnds:

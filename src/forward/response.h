@@ -36,6 +36,12 @@ struct VoltageAnswer {
   int evaluations = 0;    // of the driven patches
   VoltageEnd end = VoltageEnd::Reached;
   ModelStatus model;  // of ModelEnds and Unsound: what the model said
+  // [skin left out] The amplitude without each skin [V], to first order; empty: one skin, or not
+  // reached. Eq. metrics.6
+  std::vector<double> without{};
+  // Of the field at the amplitude, as ResponsePoint has them of its own.
+  double field_correction = 1;
+  std::optional<double> field_error{};
 
   bool reached() const { return end == VoltageEnd::Reached; }
   bool operator==(const VoltageAnswer&) const = default;
@@ -81,6 +87,9 @@ struct ResponsePoint : PointQuantities {
   double field_correction = 1;        // factor on the pull of the field rule. Eq. electrostatics.17
   std::optional<double> field_error;  // relative, of the pull; none: not measured
   double bridge_water_share = 0;      // share of the water that sits in bridges
+  // Relative, of the modulation: what `felt` takes for the error of a run on few skins, that of the
+  // response which the run is moved from. None: the point's own error. Eq. metrics.7
+  std::optional<double> felt_error{};
   ModelStatus status;
   PatchSamples samples;
   std::vector<VoltageAnswer> voltages;  // one per target asked for

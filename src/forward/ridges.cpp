@@ -22,21 +22,31 @@ constexpr int kIntervals = 300;
 constexpr std::size_t kGaps = 320;
 constexpr double kFinest = 100e-9, kWidest = 200e-6;
 
-// Spectrum of the ridge above the patch size, then that of the skin within patches.
+// Whether a spectrum of the skin says how rough it is within patches. That of a pin's map is none.
+bool skin_is_rough(const Skin& skin, double q_patch) {
+  return skin.rms > 0 && 2 * kPi / skin.cutoff > q_patch;
+}
+
+PowerSpectrum skin_within(const Skin& skin, double q_patch) {
+  const double roll_off = 2 * kPi / skin.roll_off, cutoff = 2 * kPi / skin.cutoff;
+  const double begin = std::min(q_patch, roll_off);
+  return self_affine_spectrum(skin.rms * skin.relief_factor(), begin, roll_off, cutoff, skin.hurst)
+      .between(q_patch, cutoff);
+}
+
+// Spectrum of the ridge above the patch size, then that of the skin within patches; of a level face
+// that of the skin alone.
 PowerSpectrum ridge_and_skin(const Finger& finger, double q_patch) {
   const MacroContact& macro = finger.macro;
   const Skin& skin = finger.skin;
+  if (macro.ridge_rms <= 0) return skin_within(skin, q_patch);
   const double lowest = std::min(2 * kPi / macro.ridge_longest, 0.5 * q_patch);
   const double ridge_roll_off =
       std::clamp(2 * kPi / macro.ridge_roll_off, lowest, std::max(lowest, 0.5 * q_patch));
   PowerSpectrum all = self_affine_spectrum(macro.ridge_rms, lowest, ridge_roll_off, q_patch,
                                            macro.ridge_hurst > 0 ? macro.ridge_hurst : skin.hurst);
-  const double roll_off = 2 * kPi / skin.roll_off, cutoff = 2 * kPi / skin.cutoff;
-  if (cutoff <= q_patch || skin.rms == 0) return all;
-  const double begin = std::min(q_patch, roll_off);
-  const PowerSpectrum within =
-      self_affine_spectrum(skin.rms * skin.relief_factor(), begin, roll_off, cutoff, skin.hurst)
-          .between(q_patch, cutoff);
+  if (!skin_is_rough(skin, q_patch)) return all;
+  const PowerSpectrum within = skin_within(skin, q_patch);
   for (std::size_t i = 0; i < within.wave_number.size(); ++i) {
     const double q = i == 0 ? q_patch * (1 + 1e-9) : within.wave_number[i];
     if (q <= all.wave_number.back()) continue;
@@ -116,8 +126,11 @@ std::shared_ptr<const RidgeGaps> ridge_gaps(const Finger& finger, double q_patch
 
 double capacitive_gap(const Finger& finger, double ridge_pressure, double dielectric,
                       double relative_humidity, const std::vector<PressureRing>& rings) {
+  constexpr double kPatchNumber = 2 * kPi / kPatch;
+  // A smooth pin lies on the surface.
+  if (finger.macro.ridge_rms <= 0 && !skin_is_rough(finger.skin, kPatchNumber)) return 0;
   const double h0 = dielectric + finger.skin_layer(relative_humidity);
-  const MeanField field = ridge_field(finger, 2 * kPi / kPatch, relative_humidity);
+  const MeanField field = ridge_field(finger, kPatchNumber, relative_humidity);
   double inverse = 0;
   for (const PressureRing& ring : rings)
     inverse += ring.share * field.gaps(ridge_pressure * ring.over_mean).inverse(h0);

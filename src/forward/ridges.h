@@ -13,7 +13,7 @@
 namespace papilla::forward {
 
 // Ridges from their longest wave to the patch's, then the skin within patches; moduli of the
-// humidity. Cost 1 ms.
+// humidity. One of them at least is rough. Cost 1 ms.
 MeanField ridge_field(const Finger& finger, double q_patch, double relative_humidity,
                       const MeanFieldOptions& options = {});
 
@@ -46,7 +46,8 @@ std::shared_ptr<const RidgeGaps> ridge_gaps(const Finger& finger, double q_patch
 // The gap [m] that a capacitance measurement reports under a finger whose ridges press with
 // ridge_pressure [Pa] on a dielectric of equivalent thickness d/eps [m]: open gaps and patches in
 // contact side by side, by the ridges' roughness; over the rings of a fingertip the mean of their
-// capacitances. Eq. coupling.4. Cost 3 ms a ring.
+// capacitances. 0 where no spectrum is rough: a smooth pin, and one by a map. Eq. coupling.4. Cost
+// 3 ms a ring.
 double capacitive_gap(const Finger& finger, double ridge_pressure, double dielectric,
                       double relative_humidity, const std::vector<PressureRing>& rings = {{}});
 

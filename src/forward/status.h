@@ -64,7 +64,8 @@ std::string text(const std::vector<PointTrouble>& troubles);
 // How a search for the voltage of a modulation ended: `voltage_for`.
 enum class VoltageEnd {
   Reached,
-  NoDielectric,
+  NoField,       // what touches does not conduct
+  NoDielectric,  // the electrode is bare, be it on its steepest walls alone
   Breakdown,     // of the dielectric, below the voltage
   SourceEnds,    // its compliance is below the voltage
   ModelEnds,     // no friction is known above the limit: pull-in, full contact

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "base/check.h"
 #include "base/parallel.h"
@@ -67,7 +68,7 @@ double UndrivenPatches::corrected_at() const {
   return field_corrected(driven_, setup_->fidelity()) ? driven_.drive.amplitude : 0;
 }
 
-ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) const {
+Resampled UndrivenPatches::drive(double amplitude, Estimator estimator) const {
   Scene scene = setup_->scene();
   scene.drive.control = DriveControl::Voltage;
   scene.drive.amplitude = amplitude;
@@ -105,18 +106,16 @@ ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) cons
   const std::vector<PatchResult> results =
       combined(bridge, samples > 0 ? load_laws(bridge, solved) : LoadLaws{},
                std::span(solved).first(static_cast<std::size_t>(fidelity.skins)));
-  const auto point_of = [&](const std::vector<PatchResult>& patches) {
-    return response_point({scene, plan, fidelity}, humidity(), 1, bridge, patches);
-  };
-  ResponsePoint point = point_of(results);
-  if (samples > 0 && samples <= fidelity.skins) {
-    std::vector<ResponsePoint> without;
-    for (const auto& others : without_each(bridge, solved)) without.push_back(point_of(others));
-    if (!without.empty()) take_sampling(point, without);
-  }
+  std::vector<std::vector<PatchResult>> by_own_laws;
+  if (samples > 0 && samples <= fidelity.skins) by_own_laws = without_each(bridge, solved);
+  SkinPoints points =
+      skin_points({scene, plan, fidelity}, humidity(), 1, bridge, results, std::move(by_own_laws));
   add_field_error(field_.front(), load_exponents(fidelity.load_exponent, scene.touch.coefficient),
-                  point);
-  return point;
+                  points.all);
+  Resampled out;
+  out.points.push_back(std::move(points.all));
+  for (ResponsePoint& point : points.without) out.without.push_back({std::move(point)});
+  return out;
 }
 
 }  // namespace papilla::forward

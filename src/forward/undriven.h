@@ -24,9 +24,9 @@ class UndrivenPatches {
   // 0 where the fidelity corrects nothing.
   double corrected_at() const;
 
-  // The response at an amplitude [V] > 0. The load estimator costs field and water alone, the area
-  // one contact solve per patch.
-  ResponsePoint drive(double amplitude, Estimator estimator) const;
+  // The response at an amplitude [V] > 0, one point, and without each skin. The load estimator
+  // costs field and water alone, the area one contact solve per patch.
+  Resampled drive(double amplitude, Estimator estimator) const;
 
  private:
   double humidity() const { return setup_->scene().environment.relative_humidity[0]; }

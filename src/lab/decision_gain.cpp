@@ -40,6 +40,7 @@ MemberWorth decision_worth(const WorthAfter& after, const DecisionLimits& limits
     std::vector<bool>& all = kept.emplace_back();
     for (const std::size_t m : after.member) all.push_back(limits.kept[d][m]);
   }
+  out.draw_of = after.member;
   return out;
 }
 
@@ -50,6 +51,7 @@ DecisionGain::DecisionGain(const Ensemble& ensemble, const Kernels& kernels, con
       limits_(limits),
       state_{sofar, sofar.size(), kernels.worth, {}, {}} {
   PAPILLA_CHECK(kernels.worth.size() > 1, "a choice among designs");
+  // Whatever else decides in the lab: a measurement is valued by what it saves of expected regret.
   const auto now = prospects(decision_worth(worth_after(ensemble, kernels, sofar), limits), {});
   choice_ = chosen(now, limits.wanted);
   regret_now_ = now[choice_].regret;
@@ -125,7 +127,11 @@ std::vector<double> DecisionGain::beyond_limits(const State& state, const Future
 DecisionGain::Found DecisionGain::found(const State& state, const Future& future) const {
   const std::vector<double> w = normalised(future.log_weights);
   const std::size_t designs = state.worth.size();
-  std::vector<double> expected(designs, 0), keeps(designs, 1);
+  std::vector<Prospect> there(designs);
+  if (limited_) {
+    const std::vector<double> unsure = less_sure(w, limits_.kept);
+    for (std::size_t d = 0; d < designs; ++d) there[d].less_sure = unsure[d];
+  }
   const std::vector<double>& of_choice = state.worth[choice_];
   const std::vector<double> beyond = beyond_limits(state, future, w);
   Found out{choice_, 0, 0};
@@ -137,18 +143,13 @@ DecisionGain::Found DecisionGain::found(const State& state, const Future& future
       squares += w[m] * square(difference);
       if (!limits_.kept.empty() && limits_.kept[d][m]) kept += w[m];
     }
-    if (!limits_.kept.empty()) keeps[d] = kept;
-    expected[d] = mean + future.shift[d] - future.shift[choice_] - (beyond[d] - beyond[choice_]);
+    if (!limits_.kept.empty()) there[d].p_limits = kept;
+    there[d].merit = mean + future.shift[d] - future.shift[choice_] - (beyond[d] - beyond[choice_]);
     out.variance += p_best_[d] * (std::max(0.0, squares - square(mean)) + state.left[d]);
   }
-  const double wanted =
-      std::min(limits_.wanted, *std::max_element(keeps.begin(), keeps.end())) - 1e-9;
-  if (keeps[choice_] < wanted) out.better = -kInfinity;
-  for (std::size_t d = 0; d < designs; ++d) {
-    if (keeps[d] < wanted || !(expected[d] > out.better)) continue;
-    out.better = expected[d];
-    out.choice = d;
-  }
+  // By the rule of the choice now, so that what tells nothing changes no choice. Eq. search.17
+  out.choice = chosen(there, limits_.wanted);
+  out.better = there[out.choice].merit;
   return out;
 }
 

@@ -34,7 +34,8 @@ class DecisionGain final : public Gain {
   double of(const Candidate& candidate) const override;
   void take(const Candidate& candidate) override;
 
-  // The design that is chosen now, and expected regret: now, and on average after what was taken.
+  // The design of the least expected regret of those that may be chosen now, and expected regret:
+  // now, and on average after what was taken.
   std::size_t choice() const { return choice_; }
   double regret_now() const { return regret_now_; }
   // More than now where what is told of the limits leaves worse designs to choose among.

@@ -41,6 +41,29 @@ struct DayMeans {
   }
 };
 
+// Days or fingers that stand in common cells. All cells of a day share what that day does (Eq.
+// lab.1), so two that ten cells compare differ once: so many differences are independent as joins
+// are new.
+class Joined {
+ public:
+  void join(const std::string& a, const std::string& b) {
+    const std::string of_a = root(a), of_b = root(b);
+    if (of_a == of_b) return;
+    to_[of_b] = of_a;
+    ++count_;
+  }
+  int differences() const { return count_; }
+
+ private:
+  std::string root(std::string name) const {
+    for (auto next = to_.find(name); next != to_.end(); next = to_.find(name)) name = next->second;
+    return name;
+  }
+
+  std::map<std::string, std::string> to_;
+  int count_ = 0;
+};
+
 // Squares about the means of groups.
 struct Pooled {
   double sum = 0;
@@ -52,11 +75,16 @@ struct Pooled {
     sum += group.scatter() - within * (1 - 1.0 / group.count);
     freedom += group.count - 1;
   }
-  GaugeSpread spread() const {
+  // differences: those of `freedom` that are independent.
+  GaugeSpread spread(int differences) const {
     if (freedom == 0) return {};
-    return {std::sqrt(std::max(0.0, sum / freedom)), freedom};
+    return {std::sqrt(std::max(0.0, sum / freedom)), differences};
   }
 };
+
+std::string day_of(const std::string& finger, const std::string& day) {
+  return finger + "\n" + day;
+}
 
 std::string cell_of(const FrictionReading& r, bool on) {
   return std::to_string(r.experiment.design) + " " + text(r.experiment.at) + (on ? " on" : " off");
@@ -75,32 +103,36 @@ Gauge gauge_of(const std::vector<FrictionReading>& readings) {
   }
   Gauge out;
   Pooled repeats, days, fingers;
+  Joined joined_days, joined_fingers;
   for (const auto& [cell, of_cell] : cells) {
     for (const auto& [finger, of_finger] : of_cell) {
       for (const auto& [day, of_day] : of_finger) repeats.add(of_day, 0);
     }
   }
-  out.repeatability = repeats.spread();
+  out.repeatability = repeats.spread(repeats.freedom);
   const double of_reading = square(out.repeatability.deviation);
   for (const auto& [cell, of_cell] : cells) {
     for (const auto& [finger, of_finger] : of_cell) {
       const DayMeans means(of_finger);
       days.add(means.of, of_reading * means.inverse);
+      for (const auto& [day, of_day] : of_finger)
+        joined_days.join(day_of(finger, of_finger.begin()->first), day_of(finger, day));
     }
   }
-  out.day_to_day = days.spread();
+  out.day_to_day = days.spread(joined_days.differences());
   const double of_day = square(out.day_to_day.deviation);
   for (const auto& [cell, of_cell] : cells) {
     Mean means_of_fingers;
     double within = 0;
     for (const auto& [finger, of_finger] : of_cell) {
+      joined_fingers.join(of_cell.begin()->first, finger);
       const DayMeans means(of_finger);
       means_of_fingers.add(means.of.mean());
       within += (of_day + of_reading * means.inverse / means.of.count) / means.of.count;
     }
     fingers.add(means_of_fingers, within);
   }
-  out.finger_to_finger = fingers.spread();
+  out.finger_to_finger = fingers.spread(joined_fingers.differences());
   return out;
 }
 

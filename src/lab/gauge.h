@@ -8,8 +8,8 @@
 
 namespace papilla::lab {
 
-// A standard deviation of the logarithm of friction, and the differences that it stands on; 0:
-// none.
+// A standard deviation of the logarithm of friction, and the independent differences that it
+// stands on; 0: none.
 struct GaugeSpread {
   double deviation = 0;
   int freedom = 0;

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "config/reader.h"
 #include "config/writer.h"
+#include "search/prospects.h"
 
 namespace papilla::lab {
 namespace {
@@ -20,6 +21,15 @@ void state_problems(Document& document, const LabFile& file) {
     const std::vector<std::string>& names = finger_state_names();
     if (std::find(names.begin(), names.end(), state) == names.end())
       document.problem_at("conditions.states", "\"" + state + "\" is no state of a finger");
+  }
+}
+
+void risk_problems(Document& document, const LabFile& file) {
+  try {
+    parse_belief_risk(file.risk);
+  } catch (const InputError&) {
+    document.problem_at("risk", "\"" + file.risk + "\" is none of the ways to decide: expected " +
+                                    belief_risk_forms());
   }
 }
 
@@ -45,6 +55,7 @@ LabFile lab_of(Document& document) {
   read_section(document, "", out);
   name_problems(document, out);
   state_problems(document, out);
+  risk_problems(document, out);
   document.finish();
   return out;
 }
@@ -97,6 +108,8 @@ void fields(FieldVisitor& v, LabFile& s) {
          s.worth);
   v.text({"worth_file", "worth and limits of the designs at each member, from a run"},
          s.worth_file);
+  v.text({"risk", "what decides among designs: \"regret\", or as risk.belief of studies says it"},
+         s.risk);
   v.number({"limits", "%", 0, 100, "probability that a choice keeps every limit", Source::Choice,
             "risk.limits of studies"},
            s.limits);
@@ -126,7 +139,7 @@ std::string lab_file_text(const LabFile& file) {
 }
 
 LabFile with_values(const LabFile& file, const std::vector<std::string>& values) {
-  static const std::vector<std::string> kOfTheBench{"instrument", "costs", "conditions",
+  static const std::vector<std::string> kOfTheBench{"instrument", "costs", "conditions", "risk",
                                                     "limits",     "stop",  "discrepancy"};
   for (const std::string& value : values) {
     const std::string key = value.substr(0, value.find_first_of(":=")),

@@ -38,11 +38,12 @@ struct FieldEntry {
 struct LabFile {
   std::string source;  // what it was opened with, for people
   std::string belief = "prior.toml";
-  std::string worth;         // what designs are chosen by; "": nothing is decided
-  std::string worth_file;    // their worth at each member, of a run; "": by the model
-  double limits = 0.9;       // probability that a choice keeps its limits
-  double stop = 0.005;       // expected regret over the best worth: more is not worth it
-  double discrepancy = 0.2;  // size of a model's error that is looked for, a share
+  std::string worth;            // what designs are chosen by; "": nothing is decided
+  std::string worth_file;       // their worth at each member, of a run; "": by the model
+  std::string risk = "regret";  // how belief decides among designs: parse_belief_risk reads it
+  double limits = 0.9;          // probability that a choice keeps its limits
+  double stop = 0.005;          // expected regret over the best worth: more is not worth it
+  double discrepancy = 0.2;     // size of a model's error that is looked for, a share
   Instrument instrument;
   Costs costs;
   CandidateConditions conditions;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
@@ -16,8 +17,8 @@ namespace papilla::lab {
 namespace {
 
 // What is set at an instrument comes out so near: the reading is taken as of what was planned.
-constexpr double kHumidityBand = 0.015;                 // of relative humidity, absolute
-constexpr double kLoadBand = 0.1, kVoltageBand = 0.02;  // shares
+constexpr double kHumidityBand = 0.015;  // of relative humidity, absolute
+constexpr double kLoadBand = 0.1, kVoltageBand = 0.02, kFrequencyBand = 0.02;  // shares
 // A record's own load beyond this share of the planned one is another experiment.
 constexpr double kRecordLoadBand = 0.25;
 // Of what friction is corrected by from load to load, what is not known of the correction.
@@ -29,25 +30,23 @@ constexpr double kMostRepeats = 1e6, kHighestFrequency = 1e9;
 
 double rounded(double value, double step) { return step * std::round(value / step); }
 
-bool near(double value, double wanted, double absolute, double share) {
-  return std::abs(value - wanted) <= std::max(absolute, share * std::abs(wanted));
+// How far a value is from what was wanted, in widths of a band; infinite beyond it.
+double distance(double value, double wanted, double absolute, double share) {
+  const double off = std::abs(value - wanted), band = std::max(absolute, share * std::abs(wanted));
+  if (off == 0) return 0;
+  return off <= band ? off / band : kInfinity;
 }
 
-bool near(const Conditions& is, const Conditions& wanted) {
-  return is.state == wanted.state &&
-         near(is.relative_humidity, wanted.relative_humidity, kHumidityBand, 0) &&
-         near(is.load, wanted.load, 0, kLoadBand) &&
-         near(is.voltage, wanted.voltage, 0, kVoltageBand) &&
-         (!wanted.driven() || wanted.frequency == 0 || is.frequency == 0 ||
-          near(is.frequency, wanted.frequency, 0, kVoltageBand));
-}
-
-// The nearest of some values, where it is near enough.
+// The nearest of some values, where it is near enough; the first among equals.
 double snapped(double value, const std::vector<double>& known, double absolute, double share) {
+  double out = value, least = kInfinity;
   for (const double k : known) {
-    if (near(value, k, absolute, share)) return k;
+    const double off = distance(value, k, absolute, share);
+    if (off >= least) continue;
+    least = off;
+    out = k;
   }
-  return value;
+  return out;
 }
 
 class Matcher {
@@ -85,7 +84,10 @@ class Matcher {
   void tell_problems() const {
     if (!problems_.empty()) throw InputError(problems_);
   }
+  // What readings were taken for: conditions that were planned, of which they are off by less than
+  // a band; or their own, each once as "E01 at 35 % RH, ...".
   int planned_conditions() const { return as_planned_; }
+  const std::vector<std::string>& own_conditions() const { return as_measured_; }
 
  private:
   static std::string said(const std::string& in_row, const std::string& in_options,
@@ -106,11 +108,26 @@ class Matcher {
                                             : fmt::format(", is it `{}`?", close)));
   }
 
-  // The frequency of the design's own drive is said by 0, as in plans that know no other.
-  double frequency_of(double is, std::size_t design) const {
-    const bool own =
-        design < context_.designs.size() && is == context_.designs[design].design.drive.frequency;
-    return own ? 0 : is;
+  // Of the design's own carrier [Hz], which conditions say by a frequency of 0.
+  double own_frequency(std::size_t design) const {
+    return design < context_.designs.size() ? context_.designs[design].design.drive.frequency : 0;
+  }
+  double frequency_of(const Conditions& at, std::size_t design) const {
+    return at.frequency > 0 ? at.frequency : own_frequency(design);
+  }
+
+  // Of all that is set at an instrument; infinite where something of it is beyond its band.
+  double distance_of(const Conditions& is, const Conditions& wanted, std::size_t design) const {
+    if (is.state != wanted.state) return kInfinity;
+    double out = distance(is.relative_humidity, wanted.relative_humidity, kHumidityBand, 0) +
+                 distance(is.load, wanted.load, 0, kLoadBand) +
+                 distance(is.voltage, wanted.voltage, 0, kVoltageBand);
+    if (wanted.driven())
+      out += distance(frequency_of(is, design), frequency_of(wanted, design), 0, kFrequencyBand);
+    return out;
+  }
+  bool near(const Conditions& is, const Conditions& wanted, std::size_t design) const {
+    return distance_of(is, wanted, design) < kInfinity;
   }
 
   // Conditions of a row over those that are meant.
@@ -118,27 +135,45 @@ class Matcher {
     at.load = row.load.value_or(at.load);
     at.relative_humidity = row.relative_humidity.value_or(at.relative_humidity);
     at.voltage = row.voltage.value_or(at.voltage);
-    if (row.frequency)
-      at.frequency = at.frequency == 0 ? frequency_of(*row.frequency, design) : *row.frequency;
+    const bool own = at.frequency == 0 && row.frequency == own_frequency(design);
+    if (row.frequency && !own) at.frequency = *row.frequency;
     at.state = row.state.value_or(at.state);
     if (!at.driven()) at.frequency = 0;
     return at;
   }
 
   // As it was planned where the row is near it.
-  Conditions taken(const MeasuredRow& row, const Experiment& wanted) {
+  Conditions taken(const std::string& id, const MeasuredRow& row, const Experiment& wanted) {
     const Conditions& planned = wanted.at;
     const Conditions is = over(row, planned, wanted.design);
-    if (!near(is, planned)) return snapped_to_candidates(is);
+    if (!near(is, planned, wanted.design)) return as_measured(id, row, is, wanted.design);
     as_planned_ += !(is == planned);
     return planned;
   }
 
-  Conditions snapped_to_candidates(Conditions at) const {
+  // Under conditions that were not planned: an experiment of its own. id: of what was planned.
+  Conditions as_measured(const std::string& id, const MeasuredRow& row, const Conditions& is,
+                         std::size_t design) {
+    const Conditions out = snapped_to_candidates(is, design);
+    Conditions shown = out;
+    if (shown.driven()) shown.frequency = frequency_of(out, design);
+    const std::string known = id + " at " + text(shown);
+    const bool told =
+        std::find(as_measured_.begin(), as_measured_.end(), known) != as_measured_.end();
+    if (row.measured() && !told) as_measured_.push_back(known);
+    return out;
+  }
+
+  Conditions snapped_to_candidates(Conditions at, std::size_t design) const {
     const CandidateConditions& c = context_.file.conditions;
     at.load = snapped(at.load, c.load, 0, kLoadBand);
     at.relative_humidity = snapped(at.relative_humidity, c.humidity, kHumidityBand, 0);
     at.voltage = snapped(at.voltage, c.voltage, 0, kVoltageBand);
+    const double own = own_frequency(design);
+    if (!c.frequency.empty())
+      at.frequency = snapped(at.frequency, c.frequency, 0, kFrequencyBand);
+    else if (distance(at.frequency, own, 0, kFrequencyBand) < kInfinity)
+      at.frequency = 0;
     return at;
   }
 
@@ -149,7 +184,7 @@ class Matcher {
       if (p.id != id) continue;
       out.id = id;
       out.field = p.field;
-      out.experiment = {p.experiment.design, taken(row, p.experiment)};
+      out.experiment = {p.experiment.design, taken(id, row, p.experiment)};
       check_field(id, row, out);
       check_design(id, row, out);
       return;
@@ -198,22 +233,26 @@ class Matcher {
     out.field = field;
     out.experiment.design = design_index(here.front()->design);
     check_design(field, row, out);
-    std::vector<Conditions> all, planned;  // of the field; those of them that the row is near
+    const std::size_t of = out.experiment.design;
+    std::vector<Conditions> all,
+        planned;  // of the field; those that the row is near, nearest first
     for (const FieldEntry* f : here) {
       all.push_back(conditions_of(*f));
       const bool can_be = all.back().driven() || !row.on;
-      if (can_be && near(over(row, all.back(), out.experiment.design), all.back()))
-        planned.push_back(all.back());
+      if (can_be && near(over(row, all.back(), of), all.back(), of)) planned.push_back(all.back());
     }
+    std::stable_sort(planned.begin(), planned.end(), [&](const Conditions& a, const Conditions& b) {
+      return distance_of(over(row, a, of), a, of) < distance_of(over(row, b, of), b, of);
+    });
     const std::vector<Conditions>& meant = planned.empty() ? all : planned;
     if (const std::string open = left_open(row, meant); !open.empty())
       return problem("field", fmt::format("{} is to be measured at more than one {}: say which, in "
                                           "a column; in a record by a line `# humidity: 75 %`, "
                                           "`# state: wet` or `# carrier: 5 kHz`",
                                           field, open));
-    const Conditions is = over(row, meant.front(), out.experiment.design);
+    const Conditions is = over(row, meant.front(), of);
     as_planned_ += !planned.empty() && !(is == meant.front());
-    out.experiment.at = planned.empty() ? snapped_to_candidates(is) : meant.front();
+    out.experiment.at = planned.empty() ? as_measured(field, row, is, of) : meant.front();
   }
 
   // What a row does not say and some conditions differ in: "load and humidity". Friction without
@@ -256,11 +295,11 @@ class Matcher {
     at.relative_humidity = needed(row.relative_humidity, c.humidity, "humidity");
     at.voltage = needed(row.voltage, c.voltage, "voltage");
     if (at.driven())
-      at.frequency = c.frequency.empty() ? frequency_of(row.frequency.value_or(0), index)
+      at.frequency = c.frequency.empty() ? row.frequency.value_or(0)
                      : row.on            ? needed(row.frequency, c.frequency, "frequency")
                                          : row.frequency.value_or(c.frequency.front());
     at.state = needed(row.state, finger_states(c), "state");
-    out.experiment = {index, snapped_to_candidates(at)};
+    out.experiment = {index, snapped_to_candidates(at, index)};
   }
 
   // By its name in the lab, as a plan writes that, or by the file that a table names.
@@ -285,16 +324,19 @@ class Matcher {
   const TellOptions& options_;
   std::string file_;
   int line_ = 0, as_planned_ = 0;
+  std::vector<std::string> as_measured_;
   std::vector<Problem> problems_;
 };
 
-void note_planned(const Matcher& matcher, Matched& out) {
+void note_conditions(const Matcher& matcher, Matched& out) {
   if (matcher.planned_conditions() > 0)
-    out.notes.push_back(
-        fmt::format("{} within {} % RH, {:.0f} % of load and {:.0f} % of voltage of "
-                    "what was planned: taken as planned",
-                    counted(matcher.planned_conditions(), "reading"),
-                    significant(100 * kHumidityBand, 2), 100 * kLoadBand, 100 * kVoltageBand));
+    out.notes.push_back(fmt::format(
+        "{} within {} % RH, {:.0f} % of load, {:.0f} % of voltage and {:.0f} % of "
+        "frequency of what was planned: taken as planned",
+        counted(matcher.planned_conditions(), "reading"), significant(100 * kHumidityBand, 2),
+        100 * kLoadBand, 100 * kVoltageBand, 100 * kFrequencyBand));
+  for (const std::string& own : matcher.own_conditions())
+    out.notes.push_back("measured otherwise than planned, and taken as measured: " + own);
 }
 
 // By the name of its design, whose place in the list may be another one later.
@@ -412,7 +454,7 @@ Matched match_table(const MeasuredTable& table, const MatchContext& context,
     out.readings.push_back(std::move(*reading));
   }
   matcher.tell_problems();
-  note_planned(matcher, out);
+  note_conditions(matcher, out);
   return out;
 }
 
@@ -443,7 +485,7 @@ Matched match_trace(const Trace& trace, const TraceReading& reading, const Match
         fmt::format("the finger pressed with {} N, its experiment is at {} N",
                     significant(reading.load, 3), significant(found->experiment.at.load, 3))}});
   to_load(*found, reading.load, out.notes);
-  note_planned(matcher, out);
+  note_conditions(matcher, out);
   found->key = key_of(*found, context.designs) + " | record";
   out.readings.push_back(std::move(*found));
   return out;

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "config/writer.h"
 #include "estimate/belief.h"
+#include "estimate/parameters.h"
 #include "forward/forward.h"
 #include "numerics/statistics.h"
 
@@ -180,6 +181,9 @@ DesignRuns runs_of(const Design& design, const Belief& belief, int threads) {
         out.members[k] = respond(scenes[k], few, solve_patches(scenes[k], design.texture, few));
       },
       threads);
+  // What skins leave open of the level's own numbers is theirs too.
+  take_felt_errors(out.own, out.own.points);
+  for (Response& run : out.members) take_felt_errors(run, out.own.points);
   out.few = std::move(out.members.back());
   out.members.pop_back();
   return out;
@@ -192,7 +196,7 @@ Deviations deviations_of(const Design& design, std::size_t members) {
 }
 // A design as an answer depends on it.
 std::string asked_of(const Design& design) {
-  return write_toml(to_table(design)) + maps_state(design.texture, design.finger);
+  return write_toml(to_table(design)) + maps_state(design);
 }
 
 // Those of the designs of a seed and a level are the same.

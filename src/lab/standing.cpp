@@ -162,7 +162,7 @@ void decide(Standing& s) {
   const Standing::Deciding by = s.deciding();
   const WorthAfter after = worth_after(by.ensemble, by.kernels, by.evidence);
   const MemberWorth worth = decision_worth(after, s.limits);
-  s.prospects = prospects(worth, {});
+  s.prospects = prospects(worth, s.risk);
   s.best = chosen(s.prospects, s.limits.wanted);
   s.best_worth = best_worth(worth);
   for (const std::vector<double>& of : after.worth) {
@@ -225,6 +225,7 @@ std::unique_ptr<Standing> standing_of(const Belief& belief, const LabFile& file,
   s.ensemble.responses = table.responses();
   s.ensemble.response_sampling = table.sampling();
   s.limits.wanted = file.limits;
+  s.risk = parse_belief_risk(file.risk);
   const std::vector<std::size_t> answer = members_that_answer(worth, s.ensemble.members());
   const bool all_answer = answer.size() == s.ensemble.members();
   if (all_answer) set_worth(worth, kept, answer, s.ensemble, s.limits);

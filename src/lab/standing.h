@@ -26,6 +26,7 @@ struct Standing {
   Gauge gauge;
   Instrument instrument;             // after its own readings
   DecisionLimits limits;             // of the members that decide
+  BeliefRisk risk;                   // that decides among the choices
   std::vector<std::size_t> choices;  // designs that are decided among
   std::unique_ptr<Evidence> evidence;
   // The members at which some choice has a worth, where there are others: they alone decide.

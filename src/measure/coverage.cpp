@@ -128,15 +128,19 @@ Scene random_scene(int index, Texture& texture) {
   const double period = random.uniform(3e-6, 6e-6), size = period * random.uniform(0.3, 0.6),
                depth = random.uniform(50e-9, 900e-9);
   // From gentle to steep, and never so gentle that the walls meet.
-  const double wall = std::max(random.uniform(kPi / 6, kPi / 2), std::atan(2.2 * depth / size));
+  const double slope = random.uniform(kPi / 6, kPi / 2);
+  const auto between = [&](double room) { return std::max(slope, std::atan(2.2 * depth / room)); };
+  const double wall = between(size);
   switch (index % 8) {
     case 0:
       texture = Texture{
           HoleArray{.period = period, .diameter = size, .depth = depth, .wall_angle = wall}};
       break;
     case 1:
-      texture = Texture{
-          PillarArray{.period = period, .diameter = size, .height = depth, .wall_angle = wall}};
+      texture = Texture{PillarArray{.period = period,
+                                    .diameter = size,
+                                    .height = depth,
+                                    .wall_angle = between(std::min(size, period - size))}};
       break;
     case 2:
       texture =

@@ -90,4 +90,8 @@ Better better_direction(const MetricExpression& expression) {
   return info_of(expression.metric).better;
 }
 
+double resolution(const MetricExpression& expression) {
+  return is_spread(expression.summary) ? 0 : info_of(expression.metric).resolution;
+}
+
 }  // namespace papilla::metrics

@@ -29,6 +29,13 @@ Row row(const char* name, Better better, Measured PointQuantities::*quantity) {
   return {};
 }
 
+// A share of the patch: a few per cent.
+Row share(const char* name, Better better, Measured PointQuantities::*quantity) {
+  Row out = row(name, better, quantity);
+  out.info.in_per_cent = true;
+  return out;
+}
+
 // Gloss meters show .1 units (ISO 2813).
 Row look(const char* name, Better better, double Look::*number, const char* doc,
          double resolution = 0.1) {
@@ -44,7 +51,7 @@ Row look(const char* name, Better better, double Look::*number, const char* doc,
 // Haze meters show .1 % (ASTM D1003).
 Row light(const char* name, Better better, double Look::*number, const char* doc) {
   Row out = look(name, better, number, doc, 0.001);
-  out.info.share_of_light = true;
+  out.info.in_per_cent = true;
   return out;
 }
 
@@ -57,9 +64,9 @@ const std::vector<Row>& rows() {
       row("capillary_force", Better::Lower, &Q::capillary_force),
       row("electrostatic_force", Better::Higher, &Q::electrostatic_force),
       row("retention_force", Better::Lower, &Q::retention_force),
-      row("contact_area", Better::Neither, &Q::area_fraction_off),
+      share("contact_area", Better::Neither, &Q::area_fraction_off),
       row("bridges", Better::Neither, &Q::bridges),
-      row("wetted_fraction", Better::Neither, &Q::wetted_fraction),
+      share("wetted_fraction", Better::Neither, &Q::wetted_fraction),
       row("mean_gap", Better::Neither, &Q::mean_gap),
       {Adhesion{},
        {.name = "adhesion",
@@ -153,9 +160,11 @@ Measured adhesion(const ResponsePoint& point) {
 }
 
 // Eq. metrics.7, Eq. metrics.8: whether the effect is felt there is yes or no, and known as well as
-// the modulation is; each part of its error has its share in that.
-Measured felt(const Measured& modulation, double threshold) {
-  const double above = modulation.value - threshold, se = modulation.se();
+// the modulation is; each part of its error has its share in that. relative: the error of a run on
+// few skins, which is not its own.
+Measured felt(const Measured& modulation, std::optional<double> relative, double threshold) {
+  const double above = modulation.value - threshold,
+               se = relative ? *relative * std::abs(modulation.value) : modulation.se();
   if (se <= 0) return {above > 0 ? 1.0 : 0.0, {}};
   const double p = normal_cdf(above / se), spread = std::sqrt(p * (1 - p));
   Measured out{p, {.sampling = spread * modulation.parts.sampling / se}};
@@ -188,13 +197,11 @@ struct AtPoint {
     return Measured{point.source_voltage, {}};
   }
   std::optional<Measured> operator()(const VoltageFor& m) const {
-    for (const VoltageAnswer& answer : point.voltages) {
-      if (answer.target == m.modulation && answer.reached()) return answer.amplitude;
-    }
-    return std::nullopt;
+    const VoltageAnswer* answer = voltage_answer(m, point);
+    return answer ? std::optional(answer->amplitude) : std::nullopt;
   }
   std::optional<Measured> operator()(const Felt& m) const {
-    return felt(point.modulation, m.modulation);
+    return felt(point.modulation, point.felt_error, m.modulation);
   }
   std::optional<Measured> operator()(const PullInMargin&) const {
     return point.pull_in ? std::optional(point.pull_in->margin) : std::nullopt;
@@ -256,6 +263,15 @@ std::optional<Measured> metric_at(const Metric& metric, const ResponsePoint& poi
   return std::visit(AtPoint{point}, metric);
 }
 
+const VoltageAnswer* voltage_answer(const Metric& metric, const ResponsePoint& point) {
+  const auto* voltage = std::get_if<VoltageFor>(&metric);
+  if (!voltage) return nullptr;
+  for (const VoltageAnswer& answer : point.voltages) {
+    if (answer.target == voltage->modulation && answer.reached()) return &answer;
+  }
+  return nullptr;
+}
+
 std::optional<Measured PointQuantities::*> metric_quantity(const Metric& metric) {
   return std::visit(CarryingQuantity{}, metric);
 }
@@ -266,8 +282,10 @@ std::string why_undefined(const Metric& metric, const Response& response) {
   for (const ResponsePoint& point : response.points) {
     for (const VoltageAnswer& answer : point.voltages) {
       if (answer.target != voltage->modulation || answer.reached()) continue;
-      return fmt::format("{:.0f} % RH: {} (modulation {:.3g})", 100 * point.relative_humidity,
-                         text(answer), answer.modulation);
+      // A limit of 0: nothing was driven, so that no modulation was reached.
+      const std::string reached =
+          answer.limit > 0 ? fmt::format(" (modulation {:.3g})", answer.modulation) : "";
+      return fmt::format("{:.0f} % RH: {}{}", 100 * point.relative_humidity, text(answer), reached);
     }
   }
   return "";

@@ -65,7 +65,7 @@ struct MetricInfo {
   Better better = Better::Neither;
   bool needs_drive = false;
   bool appearance = false;        // a LookMetric
-  bool share_of_light = false;    // people read it in per cent
+  bool in_per_cent = false;       // a share that people read so
   bool takes_modulation = false;  // its text has a modulation in brackets
   double resolution =
       0;  // values closer than this are one to its instruments, `unit`; 0: not known
@@ -82,6 +82,9 @@ std::string metric_text(const Metric& metric);
 // Value at one point; nothing when undefined there (a voltage that was not asked for or that does
 // not reach its modulation, a look).
 std::optional<Measured> metric_at(const Metric& metric, const ResponsePoint& point);
+
+// The answer that a voltage_for metric is of; null for other metrics, and where it has no value.
+const VoltageAnswer* voltage_answer(const Metric& metric, const ResponsePoint& point);
 
 // The quantity that carries the errors of a metric; nothing for a voltage, which has its own.
 std::optional<Measured PointQuantities::*> metric_quantity(const Metric& metric);

@@ -88,16 +88,35 @@ std::optional<BeliefDifference> belief_difference(const BeliefValues& first,
 // The moves of a number over belief, else over the steps of the finger's parameters.
 std::optional<StepSamples> model_samples(const Response& response, const Number& number);
 
+// What the correction to the 3-D field leaves open of a value, in its unit: what a stronger pull
+// moves it by, below 0 where it falls. Zeros where there is none.
+struct FieldPart {
+  double common = 0;                  // where the 3-D field itself is off, as it is for all designs
+  double own = 0;                     // where this design's corrections are, which few skins say
+  std::vector<double> corrections{};  // their logarithms, of each humidity (and task) with a pull
+  double of_skins = 0;                // what those are off by, root mean square
+
+  // Standard deviation, of this design alone.
+  double error() const;
+};
+// How far the corrections of two designs on the same skins are off alike, 0 to 1: they differ by
+// what the fields differ by and by what skins scatter, so fields that are alike have corrections
+// that are. Eq. accuracy.14
+double field_correlation(const FieldPart& first, const FieldPart& second);
+// Of the first less the second. Eq. accuracy.14
+double field_difference_error(const FieldPart& first, const FieldPart& second);
+
 // The errors of a summary skin by skin, for its difference from that of another design on the same
 // skins; empty where the runs behind them are not known. In the unit of the value.
 struct ErrorSamples {
   std::vector<double> sampling;      // their mean is the value
   std::vector<double> grid, method;  // of the control skins: their mean is what would be added
+  FieldPart field{};
 };
 ErrorSamples error_samples(Summary summary, const Metric& metric, const Response& response);
 ErrorSamples error_samples_at(std::size_t point, const Metric& metric, const Response& response);
-// The error of the first less the second, from samples of the same skins: sampling, grid and method
-// part. Nothing where one of them lacks the samples of the other. Eq. accuracy.14
+// The error of the first less the second, from samples of the same skins: sampling, grid, method
+// and field part. Nothing where one of them lacks the samples of the other. Eq. accuracy.14
 std::optional<double> difference_error(const ErrorSamples& first, const ErrorSamples& second);
 
 // "mean(modulation)", "variation(modulation)", "worst(friction)"; a bare name means mean(name). Of
@@ -116,5 +135,7 @@ MetricExpression parse_own_metric(const std::string& text);
 std::string metric_text(const MetricExpression& expression);
 // Which direction is better, of the metric or of its spread.
 Better better_direction(const MetricExpression& expression);
+// Values closer than this are one to instruments, in the metric's unit; 0: not known, or a spread.
+double resolution(const MetricExpression& expression);
 
 }  // namespace papilla::metrics

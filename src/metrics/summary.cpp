@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "base/constants.h"
 #include "forward/errors.h"
+#include "forward/field_ratio.h"
 #include "metrics/metrics.h"
 #include "metrics/series.h"
 #include "numerics/statistics.h"
@@ -58,18 +60,97 @@ std::optional<double> humidity_error(Summary summary, const Response& response,
 // share they differ. Eq. accuracy.13
 constexpr double kFieldApart = 0.3;
 
+// What a summary is off by where each value is by its own field part.
+double field_error(const Series& series, Summary summary, const std::vector<double>& field) {
+  const double apart = series.error(summary, field);
+  return is_spread(summary) ? std::hypot(series.shift(summary, field), kFieldApart * apart) : apart;
+}
+
+// Which way a stronger pull moves a metric: it lowers the voltage that a modulation takes, and how
+// far pull-in is.
+double sign_by_pull(const Metric& metric) {
+  const bool falls =
+      std::holds_alternative<VoltageFor>(metric) || std::holds_alternative<PullInMargin>(metric);
+  return falls ? -1 : 1;
+}
+
+// Of a summary over some points of a response.
+FieldPart field_part(Summary summary, const Metric& metric, std::span<const ResponsePoint> points) {
+  std::vector<double> values, weights, common, own;
+  FieldPart out;
+  const double sign = sign_by_pull(metric);
+  double squares = 0;
+  for (const ResponsePoint& point : points) {
+    const auto m = metric_at(metric, point);
+    if (!m || !std::isfinite(m->value)) return {};
+    // A voltage has the field of its own amplitude, not of the design's.
+    const VoltageAnswer* voltage = voltage_answer(metric, point);
+    const double error = (voltage ? voltage->field_error : point.field_error).value_or(0),
+                 field = m->parts.field.value_or(0);
+    const double share = error > 0 ? std::min(1.0, kOfFullField / error) : 1;
+    values.push_back(m->value);
+    weights.push_back(point.weight);
+    common.push_back(sign * share * field);
+    own.push_back(std::sqrt(1 - square(share)) * field);
+    if (field == 0) continue;  // nothing pulls there, or no field is part of it
+    out.corrections.push_back(
+        std::log(voltage ? voltage->field_correction : point.field_correction));
+    squares += (1 - square(share)) * square(error);
+  }
+  const Series series(values, weights, info_of(metric).better);
+  if (out.corrections.empty() || !series.defined(summary)) return {};
+  out.common = series.shift(summary, common);
+  out.own = sign * field_error(series, summary, own);
+  out.of_skins = std::sqrt(squares / static_cast<double>(out.corrections.size()));
+  return out;
+}
+
+// The points with each skin left out in turn, of a voltage: it is sought on skins of its own, and
+// says itself what it is without each (Eq. metrics.6). Without a skin that one of the points lacks
+// that has no value.
+std::vector<std::vector<ResponsePoint>> voltages_without(const VoltageFor& metric,
+                                                         const Response& response) {
+  std::vector<std::vector<ResponsePoint>> out;
+  for (std::size_t i = 0; i < response.points.size(); ++i) {
+    const ResponsePoint& point = response.points[i];
+    const VoltageAnswer* answer = voltage_answer(metric, point);
+    const std::size_t skins = answer ? answer->without.size() : 0;
+    if (out.size() < skins) out.resize(skins, std::vector<ResponsePoint>(response.points.size()));
+    for (std::size_t k = 0; k < skins; ++k) {
+      ResponsePoint& there = out[k][i];
+      there.relative_humidity = point.relative_humidity;
+      there.weight = point.weight;
+      there.voltages = {*answer};
+      there.voltages.front().amplitude.value = answer->without[k];
+    }
+  }
+  return out;
+}
+
+// Of a number without each skin; empty where one of them has none.
+std::vector<double> sampling_of(double value, const Reading& number,
+                                const std::vector<std::vector<ResponsePoint>>& without_each) {
+  std::vector<double> without;
+  for (const auto& points : without_each) {
+    const auto v = number(points);
+    if (!v) return {};
+    without.push_back(*v);
+  }
+  return jackknife_samples(value, without);
+}
+
 // The samples behind a number of a metric.
 ErrorSamples samples_of(const Metric& metric, const Reading& number, Change kind,
                         const Response& response) {
   ErrorSamples out;
   const auto quantity = metric_quantity(metric);
-  const auto value = quantity ? number(response.points) : std::nullopt;
+  const auto* voltage = std::get_if<VoltageFor>(&metric);
+  const auto value = quantity || voltage ? number(response.points) : std::nullopt;
   if (!value) return out;
-  std::vector<double> without;
-  for (const auto& points : response.without) {
-    if (const auto v = number(points)) without.push_back(*v);
-  }
-  if (without.size() == response.without.size()) out.sampling = jackknife_samples(*value, without);
+  std::vector<std::vector<ResponsePoint>> voltages;
+  if (voltage) voltages = voltages_without(*voltage, response);
+  out.sampling = sampling_of(*value, number, voltage ? voltages : response.without);
+  if (!quantity) return out;  // no control run has its voltage sought
   const ControlRuns& controls = response.controls;
   const ControlledChange change =
       controlled_change(controls, grid_law(*quantity, controls.friction_by_load), number, kind);
@@ -195,8 +276,7 @@ std::optional<SummaryValue> summarise(Summary summary, const Metric& metric,
   if (is_spread(summary)) {
     if (!samples.grid.empty()) out.parts.grid = grid_error(samples.grid);
     if (!samples.method.empty()) out.parts.method = method_error(samples.method);
-    if (out.parts.field)
-      out.parts.field = std::hypot(series.shift(summary, field), kFieldApart * *out.parts.field);
+    if (out.parts.field) out.parts.field = field_error(series, summary, field);
   }
   if (!response.parameters.steps.empty()) {
     if (const auto steps = step_samples(response.parameters.steps, reading(summary, metric)))
@@ -214,8 +294,10 @@ std::optional<double> summary_of_points(Summary summary, const Metric& metric,
 }
 
 ErrorSamples error_samples(Summary summary, const Metric& metric, const Response& response) {
-  return samples_of(metric, reading(summary, metric),
-                    is_spread(summary) ? Change::Absolute : Change::Relative, response);
+  ErrorSamples out = samples_of(metric, reading(summary, metric),
+                                is_spread(summary) ? Change::Absolute : Change::Relative, response);
+  out.field = field_part(summary, metric, response.points);
+  return out;
 }
 
 ErrorSamples error_samples_at(std::size_t point, const Metric& metric, const Response& response) {
@@ -223,7 +305,26 @@ ErrorSamples error_samples_at(std::size_t point, const Metric& metric, const Res
     const auto m = metric_at(metric, points[point]);
     return m ? std::optional(m->value) : std::nullopt;
   };
-  return samples_of(metric, number, Change::Relative, response);
+  ErrorSamples out = samples_of(metric, number, Change::Relative, response);
+  out.field = field_part(Summary::Mean, metric, {&response.points[point], 1});
+  return out;
+}
+
+double FieldPart::error() const { return std::hypot(common, own); }
+
+double field_correlation(const FieldPart& first, const FieldPart& second) {
+  const std::size_t n = first.corrections.size();
+  const double of_skins = square(first.of_skins) + square(second.of_skins);
+  if (n == 0 || n != second.corrections.size() || !(of_skins > 0)) return 0;
+  double apart = 0;
+  for (std::size_t i = 0; i < n; ++i) apart += square(first.corrections[i] - second.corrections[i]);
+  return std::max(0.0, 1 - apart / static_cast<double>(n) / of_skins);
+}
+
+double field_difference_error(const FieldPart& first, const FieldPart& second) {
+  const double apart = 1 - field_correlation(first, second);
+  return std::sqrt(square(first.common - second.common) +
+                   apart * (square(first.own) + square(second.own)));
 }
 
 std::optional<double> difference_error(const ErrorSamples& first, const ErrorSamples& second) {
@@ -238,7 +339,8 @@ std::optional<double> difference_error(const ErrorSamples& first, const ErrorSam
                grid = grid_error(minus(first.grid, second.grid)),
                method = method_error(minus(first.method, second.method));
   if (!same) return std::nullopt;
-  return std::sqrt(square(sampling) + square(grid) + square(method));
+  return std::sqrt(square(sampling) + square(grid) + square(method) +
+                   square(field_difference_error(first.field, second.field)));
 }
 
 }  // namespace papilla::metrics

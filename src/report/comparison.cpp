@@ -154,6 +154,9 @@ double number(const Json& finalist, const char* what, std::size_t place) {
 std::string recommended_table(const Side& first, const Side& second,
                               const std::vector<Common>& common) {
   const Json *a = first.recommended(), *b = second.recommended();
+  if (!a && !b)
+    return fmt::format("Neither {} nor {} recommends a design of its front.\n", first.name,
+                       second.name);
   if (!a || !b)
     return fmt::format("{} recommends no design of its front.\n", (a ? second : first).name);
   std::string out =
@@ -164,8 +167,7 @@ std::string recommended_table(const Side& first, const Side& second,
     const MetricExpression& e = c.objective.expression;
     const std::string unit = shown_unit(e).unit;
     const auto text = [&](double value, double error, bool sign) {
-      return fmt::format("{} ± {}{}", shown_value(e, value, sign), shown_error(e, error),
-                         unit.empty() ? "" : " " + unit);
+      return shown_with_error(e, value, error, sign) + (unit.empty() ? "" : " " + unit);
     };
     const double error = std::hypot(ea, eb);
     const bool apart = std::abs(vb - va) > 2 * error;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
@@ -68,6 +69,9 @@ std::string ranges_text(const ResultFiles& f) {
   }
   return out + ")";
 }
+
+// Of one design there is nothing to choose: what is said of the best of several says nothing.
+bool has_choice(const Decision& d) { return d.designs.size() > 1; }
 
 // A value of it in its unit. more: what stands behind that.
 std::string in_worth(const ResultFiles& f, const std::string& words, double value,
@@ -260,12 +264,27 @@ std::string unanswered_sentence(const ResultFiles& f) {
   for (std::size_t m = 0; m < worth.weights.size(); ++m) unanswered += worth.known(m) ? 0 : 1;
   if (unanswered == 0) return {};
   return fmt::format(
-      " At {} of these members ({} of belief) no design of the front has an answer: probabilities "
-      "of being the best and regrets are over the others, and a limit that needs an answer is not "
-      "kept there.",
+      " At {} of these members ({} of belief) {}a limit that needs an answer is not kept there.",
       stated(count_number("members of belief without an answer", unanswered, kOfDecision),
              fmt::format("{}", unanswered)),
-      percent_stated("share of belief without an answer", 1 - search::known_share(worth)));
+      percent_stated("share of belief without an answer", 1 - search::known_share(worth)),
+      has_choice(decision_of(f)) ? "no design of the front has an answer: probabilities of being "
+                                   "the best and regrets are over the others, and "
+                                 : "it has no answer: ");
+}
+
+// Of finalists that keep every limit and are behind the front by their confirmed numbers alone.
+std::string unjudged_sentence(const ResultFiles& f) {
+  std::string out;
+  for (const FinalDesign& design : f.result.finalists) {
+    if (design.on_front || design.unjudged.empty()) continue;
+    out += fmt::format(
+        " Whether a member of belief prefers the finalist with {} to all of the front is not "
+        "known: "
+        "it has no answer at the members ({}).",
+        shape_text(design.design), design.unjudged);
+  }
+  return out;
 }
 
 // The design whose measurement beside that of the chosen one settles most: what is better where
@@ -385,6 +404,66 @@ std::string felt_sentence(const ResultFiles& f, std::size_t shown) {
                      felt / known.all));
 }
 
+// Whether single skins are known behind a number of the front's confirmed answers. of: its samples.
+bool has_skins(const ResultFiles& f, const std::function<bool(const TaskAnswer&)>& of) {
+  return std::any_of(
+      f.result.finalists.begin(), f.result.finalists.end(), [&](const FinalDesign& design) {
+        return design.on_front && std::any_of(design.answers.begin(), design.answers.end(), of);
+      });
+}
+
+bool has_skins(const ResultFiles& f, std::size_t objective) {
+  return has_skins(f, [objective](const TaskAnswer& a) {
+    return objective < a.samples.size() &&
+           std::any_of(a.samples[objective].begin(), a.samples[objective].end(),
+                       [](const ErrorSamples& number) { return !number.sampling.empty(); });
+  });
+}
+
+// Objectives that differ from skin to skin, and of which no single skins are known: a share of
+// people, the distance to pull-in. What skins leave open of them is in no probability.
+std::vector<std::string> objectives_without_skins(const ResultFiles& f) {
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < f.problem.objectives().size(); ++k) {
+    const StudyObjective& o = f.problem.objectives()[k];
+    if (!info_of(o.expression.metric).appearance && !has_skins(f, k)) out.push_back(o.name);
+  }
+  return out;
+}
+
+// Whether what designs are compared in is over skins: " and over skins, without errors of".
+std::string skins_text(const ResultFiles& f) {
+  const PickRule& rule = decision_of(f).rule;
+  std::vector<std::string> without = objectives_without_skins(f);
+  std::size_t compared = f.problem.objectives().size();
+  if (rule.kind == PickRule::Kind::Worst) {
+    without.clear();
+    if (!has_skins(f, [](const TaskAnswer& a) { return !a.worst_samples.sampling.empty(); }))
+      without.push_back(worth_name(f));
+    compared = 1;
+  } else if (rule.kind == PickRule::Kind::Objective) {
+    const std::string& name = f.problem.objectives()[rule.index].name;
+    const bool none = std::find(without.begin(), without.end(), name) != without.end();
+    without.assign(none ? 1 : 0, name);
+    compared = 1;
+  }
+  if (without.empty()) return " and over skins, without errors of";
+  const std::string of =
+      join_names(without) + ", of which single skins are not known, and without errors of";
+  return (without.size() < compared ? " and over skins, without what these leave open of "
+                                    : ", without what skins leave open of ") +
+         of;
+}
+
+// The same of the probabilities of each objective; "" where all are over skins.
+std::string without_skins_sentence(const ResultFiles& f) {
+  const std::vector<std::string> without = objectives_without_skins(f);
+  if (without.empty()) return {};
+  return fmt::format(
+      " Probabilities in {} are over the members alone: what skins leave open is not in them.",
+      join_names(without));
+}
+
 // How much of the doubt more skins would take away, and what only measurements can.
 std::string settled_sentence(const ResultFiles& f) {
   const Decision& d = decision_of(f);
@@ -420,7 +499,7 @@ std::string worst_over_belief(const ResultFiles& f) {
 
 std::optional<std::size_t> design_to_measure(const ResultFiles& f) {
   const Decision& d = decision_of(f);
-  if (!d.made() || d.designs.size() < 2) return std::nullopt;
+  if (!d.made() || !has_choice(d)) return std::nullopt;
   const Prospect& chosen = d.designs[d.best];
   if (chosen.p_best > kSure || !matters(d, chosen.regret)) return std::nullopt;
   return rival_of(d);
@@ -457,22 +536,28 @@ std::vector<std::string> decision_grounds(const ResultFiles& f) {
         "How sure that is was not judged: only designs of the front are judged at the members of "
         "belief, and the surface is none of them."};
   const std::size_t shown = *place;
+  if (!has_choice(d))
+    return {
+        fmt::format("How sure: {} is the one design on the front, so there is nothing to choose by "
+                    "belief. It was judged at {} members of it.",
+                    name_of(f, shown), members_text(f)) +
+        unanswered_sentence(f) + felt_sentence(f, shown) + limits_sentence(f)};
   const bool textured = facts(f.result.finalists[shown].design.texture).relief.present;
   std::string sure = fmt::format(
       "How sure: of the {} designs of the front {}{} is the best in {} with probability {}, by "
       "this model, over the {} members of belief (finger and model as the measurements leave them "
-      "open) and over skins, without errors of the grid and of the 3-D field. On average over the "
+      "open){} the grid and of what all designs share of the 3-D field. On average over the "
       "members it has {}",
       stated(count_number("designs of the front", d.designs.size(), {Stage::Confirm}),
              fmt::format("{}", d.designs.size())),
       name_of(f, shown), textured ? "" : ", the surface that is recommended,", worth_name(f),
-      p_best_text(f, shown), members_text(f), behind_text(f, shown));
+      p_best_text(f, shown), members_text(f), skins_text(f), behind_text(f, shown));
   const std::string unanswered = unanswered_sentence(f);
   if (shown != d.best)
     return {sure + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f)) + unanswered};
   std::vector<std::string> out{sure + "." + unanswered + felt_sentence(f, shown) +
                                settled_sentence(f) + others_sentence(f) + limits_sentence(f)};
-  if (d.designs.size() > 1) out.push_back("What would overturn it: " + overturned_text(f) + ".");
+  out.push_back("What would overturn it: " + overturned_text(f) + ".");
   if (std::string measure = measure_sentence(f); !measure.empty()) out.push_back(measure);
   return out;
 }
@@ -482,27 +567,36 @@ std::string decision_text(const ResultFiles& f) {
   if (!f.result.has_best() || (!d.made() && d.absent.empty())) return {};
   std::string out = "\n## Which of them, by belief\n\n";
   if (!d.made()) return out + fmt::format("By the numbers of the fit alone: {}.\n", d.absent);
-  out += fmt::format(
-      "Each design of the front at {} members of belief about finger and model (as good as {} "
-      "equal ones), judged in {}{}. Regret: what is lost on average against the best design at "
-      "each "
-      "member. {} has {}.{}\n\n",
-      members_text(f),
+  const bool choice = has_choice(d);
+  const std::string at = fmt::format(
+      "at {} members of belief about finger and model (as good as {} equal ones)", members_text(f),
       stated(bare_number("effective members of belief", d.effective_members, "", kOfBelief, {}),
-             fmt::format("{:.3g}", d.effective_members)),
-      worth_name(f), ranges_text(f), f.result.finalists[d.best].folder, chosen_how(f),
-      unanswered_sentence(f));
-  std::vector<std::string> head{"design", "p(best)", "expected regret"};
-  for (const StudyObjective& o : f.problem.objectives()) head.push_back("p(best) in " + o.name);
+             fmt::format("{:.3g}", d.effective_members)));
+  if (choice)
+    out += fmt::format(
+        "Each design of the front {}, judged in {}{}. Regret: what is lost on average against the "
+        "best design at each member. {} has {}.",
+        at, worth_name(f), ranges_text(f), f.result.finalists[d.best].folder, chosen_how(f));
+  else
+    out += fmt::format(
+        "{} is the one design on the front, so there is nothing to choose. It was judged {}.",
+        f.result.finalists[d.best].folder, at);
+  out += unanswered_sentence(f) + unjudged_sentence(f) +
+         (choice ? without_skins_sentence(f) : std::string()) + "\n";
   const bool limited = !f.study.constraints.empty();
+  std::vector<std::string> head{"design"};
+  if (choice) {
+    head.insert(head.end(), {"p(best)", "expected regret"});
+    for (const StudyObjective& o : f.problem.objectives()) head.push_back("p(best) in " + o.name);
+  }
   if (limited) head.push_back("p(every limit)");
   for (const Constraint& c : f.study.constraints) head.push_back("p(" + limit_name(c.on) + ")");
-  out += markdown_head(head);
-  for (std::size_t i = 0; i < d.designs.size(); ++i) {
+  if (choice || limited) out += "\n" + markdown_head(head);
+  for (std::size_t i = 0; i < d.designs.size() && (choice || limited); ++i) {
     const Prospect& p = d.designs[i];
-    std::vector<std::string> row{f.result.finalists[i].folder, p_best_text(f, i),
-                                 regret_text(f, i)};
-    for (std::size_t k = 0; k < d.p_best_by.size(); ++k)
+    std::vector<std::string> row{f.result.finalists[i].folder};
+    if (choice) row.insert(row.end(), {p_best_text(f, i), regret_text(f, i)});
+    for (std::size_t k = 0; k < d.p_best_by.size() && choice; ++k)
       row.push_back(percent_stated(
           "probability that " + name_of(f, i) + " is the best in " + f.problem.objectives()[k].name,
           d.p_best_by[k][i]));
@@ -513,6 +607,7 @@ std::string decision_text(const ResultFiles& f) {
           p.p_limit[k]));
     out += markdown_row(row);
   }
+  if (!choice) return out;
   for (const Reversal& r : d.hypotheses)
     out +=
         fmt::format("\n- Under hypothesis \"{}\" ({} of belief) {}.", r.name, hypothesis_share(r),

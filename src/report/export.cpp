@@ -74,19 +74,23 @@ std::string felt_line(const Verification& v) {
           ? fmt::format("smallest hole {:.3g} um, smallest wall {:.3g} um (pixel {:.2g} um); ",
                         1e6 * v.pixels.min_hole, 1e6 * v.pixels.min_wall, 1e6 * v.pixels.pixel)
           : std::string();
-  return edges + fmt::format("{} {:.4g}, of the design {:.4g}: {:.2g} % off\n", v.merit, v.file,
-                             v.design, 100 * v.loss);
+  std::string out = edges + fmt::format("{} {:.4g}, of the design {:.4g}: {:.2g} % off\n", v.merit,
+                                        v.file, v.design, 100 * v.loss);
+  for (const std::string& note : v.notes) out += note + '\n';
+  return out;
 }
 
 Json verification_json(const Verification& v) {
-  return {{"min_hole", json_number(v.pixels.min_hole)},
-          {"min_wall", json_number(v.pixels.min_wall)},
-          {"pixel", v.pixels.pixel},
-          {"merit", v.merit},
-          {"design", json_number(v.design)},
-          {"file", json_number(v.file)},
-          {"loss", json_number(v.loss)},
-          {"faults", v.faults}};
+  Json out{{"min_hole", json_number(v.pixels.min_hole)},
+           {"min_wall", json_number(v.pixels.min_wall)},
+           {"pixel", v.pixels.pixel},
+           {"merit", v.merit},
+           {"design", json_number(v.design)},
+           {"file", json_number(v.file)},
+           {"loss", json_number(v.loss)},
+           {"faults", v.faults}};
+  if (!v.notes.empty()) out["notes"] = v.notes;
+  return out;
 }
 
 Json record(const Study& study, const ExportOptions& options, const Export& result) {
@@ -97,25 +101,28 @@ Json record(const Study& study, const ExportOptions& options, const Export& resu
   Json files = Json::array();
   for (const ExportedFile& file : result.files)
     files.push_back({{"format", file.format}, {"file", file_name(file.path)}});
-  return {{"schema", 1},
-          {"title", design.title},
-          {"texture", texture_name(result.texture)},
-          {"pixels", {h.grid.nx, h.grid.ny}},
-          {"size", {h.grid.lx, h.grid.ly}},
-          {"cells", {result.cells_x, result.cells_y}},
-          {"lowest", *low},
-          {"highest", *high},
-          {"polarity", polarity_json(options.polarity)},
-          {"min_hole", json_number(margins.min_hole)},
-          {"min_wall", json_number(margins.min_wall)},
-          {"aspect_ratio", json_number(margins.aspect_ratio)},
-          {"process_shrink", options.bias.shrink},
-          {"exr_repeat", options.repeat},
-          {"layout", layout_json(result)},
-          {"dose", dose_json(result.dose)},
-          {"files", files},
-          {"warnings", result.warnings},
-          {"made_from", Json::parse(record_json(record_of(study, options, result)))}};
+  Json out{{"schema", 1},
+           {"title", design.title},
+           {"texture", texture_name(result.texture)},
+           {"pixels", {h.grid.nx, h.grid.ny}},
+           {"size", {h.grid.lx, h.grid.ly}},
+           {"cells", {result.cells_x, result.cells_y}},
+           {"lowest", *low},
+           {"highest", *high},
+           {"polarity", polarity_json(options.polarity)},
+           {"min_hole", json_number(margins.min_hole)},
+           {"min_wall", json_number(margins.min_wall)},
+           {"aspect_ratio", json_number(margins.aspect_ratio)},
+           {"process_shrink", options.bias.shrink},
+           {"exr_repeat", options.repeat},
+           {"layout", layout_json(result)},
+           {"dose", dose_json(result.dose)},
+           {"files", files},
+           {"warnings", result.warnings},
+           {"made_from", Json::parse(record_json(record_of(study, options, result)))}};
+  // What features of two parts leave between them is in none of the three.
+  if (std::holds_alternative<Stack>(result.texture.kind)) out["margins_of"] = "each part alone";
+  return out;
 }
 
 std::string size_line(const Export& result) {

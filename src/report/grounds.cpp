@@ -90,7 +90,7 @@ std::string one_drive(const ResultFiles& f, const Drive& drive) {
   return fmt::format("{} at {}", source, said("frequency of the drive", drive.frequency, "kHz"));
 }
 
-// Which fingers and weathers the numbers are for.
+// Which fingers, weathers and pen the numbers are for.
 std::string conditions_text(const ResultFiles& f) {
   std::vector<std::string> states;
   std::vector<double> humidities;
@@ -113,9 +113,13 @@ std::string conditions_text(const ResultFiles& f) {
                                ? said("the", least)
                                : said("the least", least) + " to " + said("the largest", most);
   const std::string drive = drive_text(f);
-  return fmt::format("Judged for {} at {} relative humidity under {}{}.",
-                     join_names(states, " and "), humidity_text(humidities), load,
-                     drive.empty() ? "" : ", driven with " + drive);
+  const Pin& pen = f.study.design.counterface.pen;
+  return fmt::format(
+      "Judged for {} at {} relative humidity under {}{}{}.", join_names(states, " and "),
+      humidity_text(humidities), load, drive.empty() ? "" : ", driven with " + drive,
+      f.problem.goals().pen
+          ? fmt::format(", and for the pen \"{}\" under {}", pen.name, said("the pen's", pen.load))
+          : "");
 }
 
 // An objective in one of the checks.
@@ -347,7 +351,7 @@ std::string room_text(const ResultFiles& f) {
                     stated(bare_number(fmt::format("room {} of {}", way, row.path),
                                        drift->most / unit, row.unit, kOfAStep,
                                        {Stage::Confirm, Stage::Rounding, Stage::Sensitivity}),
-                           in_unit(drift->most, row.unit, 2))
+                           at_most(drift->most, row.unit))
               : std::string("not at all"),
           way,
           limit_of_name(f, drift->limit) +

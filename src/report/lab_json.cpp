@@ -56,6 +56,7 @@ LabJson standing_json(Lab& lab) {
           {"best", s.decided() ? LabJson(name(s.best)) : LabJson(nullptr)},
           {"best_worth", json_number(sign * s.best_worth)},
           {"unanswered", json_number(s.unanswered)},
+          {"risk", lab.file().risk},
           {"limits_wanted", json_number(s.limits.wanted)},
           {"keeps_limits", s.decided() ? LabJson(s.keeps_limits()) : LabJson(nullptr)},
           {"designs", std::move(designs)},

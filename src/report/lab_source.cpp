@@ -18,7 +18,6 @@
 #include "config/reader.h"
 #include "design/study.h"
 #include "metrics/metrics.h"
-#include "search/problem.h"
 #include "search/records.h"
 
 namespace papilla::report {
@@ -134,9 +133,9 @@ class LabOpener {
                      "`papilla optimize` with the same study and --resume writes it anew");
   }
 
-  // Why a run has not judged its designs over belief, and what to do about it: a reason that lies
-  // in the study's fingers or model says that itself.
-  [[noreturn]] static void refuse_unjudged(const std::string& path, const Folder& folder,
+  // Why a run has not judged its designs over belief, and what to do about it: the reason says that
+  // itself, but where no design keeps the limits.
+  [[noreturn]] static void refuse_unjudged(const std::string& path,
                                            const nlohmann::ordered_json& run,
                                            const std::string& reason) {
     const std::string what = path + ": no decision by belief: " + reason;
@@ -146,19 +145,14 @@ class LabOpener {
     });
     if (!any_keeps)
       throw InputError(what + "; loosen a limit or give the search more room, and search again");
-    const Study study = read_study(folder.file("resolved.toml"));
-    if (!search::StudyProblem(study).belief_absent().empty())
-      throw InputError(what + "; then search again");
-    throw InputError(what +
-                     "; give the search more time (`search.time`, or less to evaluate) and "
-                     "search again");
+    throw InputError(what + "; then search again");
   }
 
   void take_decision(const std::string& path, const Folder& folder,
                      const nlohmann::ordered_json& whole) {
     const nlohmann::ordered_json& run = whole.at("decision");
     if (const std::string absent = run.value("absent", ""); !absent.empty())
-      refuse_unjudged(path, folder, whole, absent);
+      refuse_unjudged(path, whole, absent);
     RunWorth worth;
     worth.name = run.value("worth", "");
     for (const auto& [name, design] : run.at("designs").items()) {
@@ -190,12 +184,13 @@ class LabOpener {
     out_.opening.worth = std::move(worth);
   }
 
-  // The study of the run says how surely its limits are to be kept.
+  // The study of the run says what decides, and how surely its limits are to be kept.
   void take_study(const Folder& folder) {
     if (!folder.has("resolved.toml")) return;
     Document study = load_document(folder.file("resolved.toml"), {}, design_roots());
     StudyRisk risk;
     read_section(study, "risk", risk);
+    file().risk = risk.belief;
     file().limits = risk.limits;
   }
 

@@ -268,6 +268,17 @@ std::string decision_line(const Lab& lab, const DecisionRecord& d) {
   return out + fmt::format("; as good as {} members", significant(d.effective_members, 3));
 }
 
+// That measurements are valued by another criterion than the one that decides; "" where they are
+// not.
+std::string criterion_text(const Lab& lab, const Standing& s) {
+  if (s.risk.regret) return {};
+  return fmt::format(
+      "What a measurement is worth, whether to stop and which design is chosen after it are by "
+      "the least expected regret alone, not by `risk` = \"{}\" of lab.toml: for one criterion in "
+      "both set `risk` to \"regret\".",
+      lab.file().risk);
+}
+
 std::string decision_reason(const Lab& lab, const Standing& s, const PlanRecord& plan) {
   const std::string now = regret_text(lab, s, plan.regret_now),
                     then = regret_text(lab, s, plan.regret_after);
@@ -284,10 +295,11 @@ std::string decision_reason(const Lab& lab, const Standing& s, const PlanRecord&
                 plan.regret_after > plan.regret_now
                     ? ", as what they say of the limits may leave worse designs to choose among"
                     : "");
+  const std::string criterion = criterion_text(lab, s);
   return fmt::format(
       "Why these: of all that can be measured {}; with probability {} another design is chosen "
-      "after them.",
-      why, lab_percent(plan.p_change));
+      "after them.{}",
+      why, lab_percent(plan.p_change), criterion.empty() ? "" : " " + criterion);
 }
 
 }  // namespace
@@ -315,6 +327,11 @@ std::string lab_standing_text(Lab& lab) {
     out += fmt::format("{} is the best of {} in {} with probability {}; expected regret {}.\n\n",
                        choice_name(lab, s, s.best), s.prospects.size(), lab.file().worth,
                        lab_percent(best.p_best), regret_text(lab, s, best.regret));
+    if (!s.risk.regret)
+      out += fmt::format(
+          "It is chosen by `risk` = \"{}\" of lab.toml, not by the least expected "
+          "regret.\n\n",
+          lab.file().risk);
     out += choices_table(lab, s) + "\n";
     if (const std::string limits = limits_text(lab, s); !limits.empty()) out += limits + "\n\n";
     if (of_run(lab) && lab.readings().empty())
@@ -351,7 +368,11 @@ std::string lab_plan_reason(Lab& lab, const PlanRecord& plan) {
 std::string lab_plan_text(Lab& lab, const PlanRecord& plan) {
   const Standing& s = lab.standing();
   std::string out = "# What to measure next\n\n" + lab_standing_text(lab) + "\n";
-  if (plan.experiments.empty()) return out + empty_text(plan) + stop_text(lab, s, plan);
+  if (plan.experiments.empty()) {
+    const std::string criterion = plan.aim == Aim::Decision ? criterion_text(lab, s) : "";
+    return out + empty_text(plan) + criterion + (criterion.empty() ? "" : "\n") +
+           stop_text(lab, s, plan);
+  }
   out += plan_table(lab, plan) + "\n" + lab_plan_reason(lab, plan) +
          fmt::format(" It takes {}.\n", hours(plan.seconds));
   if (plan.aim == Aim::Decision) out += outcomes_text(plan);

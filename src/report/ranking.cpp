@@ -41,11 +41,6 @@ std::string criterion_head(const Criterion& c) {
   return c.text() + (unit.empty() ? "" : " " + unit);
 }
 
-// In SI, as in JSON and CSV.
-std::string si_unit(const Criterion& c) {
-  return shown_unit(c.expression).unit.empty() ? "" : c.info().unit;
-}
-
 std::string metric_cell(const Criterion& c, const Interval& i) {
   const double scale = shown_unit(c.expression).scale;
   // Of a look that nothing scatters there is no ±; the last bits of a mean are none.
@@ -69,7 +64,7 @@ std::vector<std::string> score_head(const RankOptions& options) {
 
 std::vector<std::string> score_row(const std::string& name, const RankOptions& options,
                                    const RankedCandidate& r, bool last) {
-  std::vector<std::string> row{fmt::format("{:>3}", r.rank), name};
+  std::vector<std::string> row{fmt::format("{:>3}{}", r.rank, r.tied_with_next ? "=" : ""), name};
   for (std::size_t c = 0; c < r.metrics.size(); ++c)
     row.push_back(metric_cell(options.criteria[c], r.metrics[c]));
   const Interval& ahead = r.ahead_of_next;
@@ -285,22 +280,26 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
   }
   const std::string seconds =
       ranking.seconds ? fmt::format(", {:.1f} s", *ranking.seconds) : std::string();
+  const char* bars =
+      options.scored() ? "± and [ ] are 95 % intervals over " : "± are 95 % intervals over ";
+  const char* tie = options.scored() ? "; = marks a tie with the next" : "";
   if (!options.felt())
     return out + fmt::format(
                      "what is ranked is seen and not felt: neither the finger nor belief about it "
-                     "is in it. ± and [ ] are 95 % intervals over arrangements of rough surfaces "
-                     "({} of each at least); an array has one, and no ±; = marks a tie with the "
-                     "next. {} arrangements in all{}\n",
-                     fewest, ranking.skins, seconds);
+                     "is in it. {}arrangements of rough surfaces ({} of each at least); an array "
+                     "has one, and no ±{}. {} arrangements in all{}\n",
+                     bars, fewest, tie, ranking.skins, seconds);
+  const char* over = ranking.members > 0      ? "skins and belief"
+                     : ranking.directions > 0 ? "skins and the parameters of the finger"
+                                              : "skins";
   return out +
          fmt::format(
              "all designs met the same skins ({} at least): trust the order, its leads and "
              "probabilities, not the values, which may all be high or low together, beyond their "
              "±; errors of grid, method and water are not in ± either, and cancel as far as "
-             "designs are alike: papilla evaluate "
-             "gives values. ± and [ ] are 95 % intervals over skins; = "
-             "marks a tie with the next. {} patches of skin in all{}\n",
-             fewest, ranking.skins, seconds);
+             "designs are alike: papilla evaluate gives values. {}{}{}. {} patches of skin in "
+             "all{}\n",
+             fewest, bars, over, tie, ranking.skins, seconds);
 }
 
 std::string ranking_json(const std::vector<std::string>& names, const RankOptions& options,
@@ -312,7 +311,7 @@ std::string ranking_json(const std::vector<std::string>& names, const RankOption
     by.push_back(c.text());
     criteria.push_back({{"metric", metric_text(c.expression)},
                         {"better", c.high ? "high" : "low"},
-                        {"unit", si_unit(c)}});
+                        {"unit", si_unit(c.expression)}});
   }
   Json conditions = Json::array();
   for (const ConditionDifference& d : ranking.conditions) {
@@ -347,7 +346,7 @@ std::string ranking_csv(const std::vector<std::string>& names, const RankOptions
                         const Ranking& ranking) {
   std::string out = "finger,rank,design,title";
   for (const Criterion& c : options.criteria) {
-    const std::string unit = si_unit(c);
+    const std::string unit = si_unit(c.expression);
     out += fmt::format(",{0}{1},{0} low,{0} high,{0} p(best)", metric_text(c.expression),
                        unit.empty() ? "" : " [" + unit + "]");
   }

@@ -184,6 +184,11 @@ std::string field_lines(const Response& response) {
         "at most {:.3g} of this amplitude holds; the numbers under voltage mean nothing "
         "physical\n",
         1 / margin, margin);
+  } else if (bridged == 0) {
+    out +=
+        "warning: the dielectric is at risk: it holds the field that was solved, but the electrode "
+        "is bare on side walls, where a bridge or a contact would short the drive; voltage_for and "
+        "studies refuse it: cover the walls (surface.step_coverage, a conformal layer)\n";
   } else if (bridged < 1) {
     out += fmt::format(
         "warning: the dielectric is at risk: it holds the field that was solved, but under a "
@@ -265,7 +270,8 @@ std::string voltage_lines(const Response& response) {
       out += fmt::format("modulation {:.3g} at {:.0f} % RH: ", v.target, 100 * p.relative_humidity);
       out += v.reached() ? with_error(v.amplitude, 1, 1) +
                                " V (±: " + voltage_parts(v.amplitude.parts) + ")\n"
-                         : fmt::format("{} first (modulation {:.3g})\n", text(v), v.modulation);
+             : v.limit > 0 ? fmt::format("{} first (modulation {:.3g})\n", text(v), v.modulation)
+                           : text(v) + "\n";
     }
   }
   return out;

@@ -212,7 +212,10 @@ Json run_json(const ResultFiles& f) {
            {"shown", Json::object()}};
   for (const StudyObjective& o : f.problem.objectives()) {
     const ShownUnit shown = shown_unit(o.expression);
-    out["shown"][o.name] = {{"scale", shown.scale}, {"unit", shown.unit}};
+    const std::optional<int> decimals = shown_decimals(o.expression);
+    out["shown"][o.name] = {{"scale", shown.scale},
+                            {"unit", shown.unit},
+                            {"decimals", decimals ? Json(*decimals) : Json()}};
   }
   if (r.interrupted || r.finalists.empty()) return out;
   out["advice"] = advice_name(search::advice_of(f.problem, r));

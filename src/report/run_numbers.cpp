@@ -50,8 +50,9 @@ std::string objective_text(const ResultFiles& f, const std::string& of, const Sc
   const StudyObjective& o = f.problem.objectives()[k];
   const std::string unit = shown_unit(o.expression).unit;
   const double value = score.values[k];
-  std::string out = shown_value(o.expression, value);
-  if (scatters(value, score.errors[k])) out += " ± " + shown_error(o.expression, score.errors[k]);
+  std::string out = scatters(value, score.errors[k])
+                        ? shown_with_error(o.expression, value, score.errors[k])
+                        : shown_value(o.expression, value);
   const auto parameters = parameter_error(score, k);
   if (parameters && scatters(value, *parameters))
     out += fmt::format(" ({})", shown_error(o.expression, *parameters));
@@ -99,6 +100,13 @@ StatedNumber whole_text(const std::string& words, const std::string& no_value,
 std::string in_unit(double si, const std::string& unit, int digits) {
   const double shown = si / find_unit(unit)->to_si;
   return significant(shown, digits) + (unit.empty() ? "" : " " + unit);
+}
+
+std::string at_most(double si, const std::string& unit) {
+  const double to_si = find_unit(unit)->to_si, value = si / to_si;
+  if (!(value > 0)) return in_unit(si, unit, 2);
+  const double step = std::pow(10, std::floor(std::log10(value)) - 1);
+  return in_unit(to_si * step * std::floor(value / step * (1 + 1e-9)), unit, 2);
 }
 
 }  // namespace papilla::report

@@ -34,6 +34,8 @@ StatedNumber bare_number(const std::string& words, double value, const std::stri
 StatedNumber count_number(const std::string& words, std::size_t count, std::vector<Stage> rests_on);
 // "207 nm": of so many digits in a unit.
 std::string in_unit(double si, const std::string& unit, int digits);
+// Two digits that are not beyond it: what was tried, or where a limit is reached.
+std::string at_most(double si, const std::string& unit);
 // A text with several numbers in it, or none: what it says as a whole.
 StatedNumber whole_text(const std::string& words, const std::string& no_value,
                         std::vector<Stage> rests_on);

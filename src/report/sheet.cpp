@@ -28,14 +28,6 @@ Json drift_json(const std::optional<Drift>& drift, double unit) {
   return drift && drift->judged() ? Json(drift->most / unit) : Json();
 }
 
-// Two digits that are not beyond it: what was tried, or where a limit is reached.
-std::string at_most(double si, const std::string& unit) {
-  const double to_si = find_unit(unit)->to_si, value = si / to_si;
-  if (!(value > 0)) return in_unit(si, unit, 2);
-  const double step = std::pow(10, std::floor(std::log10(value)) - 1);
-  return in_unit(to_si * step * std::floor(value / step * (1 + 1e-9)), unit, 2);
-}
-
 }  // namespace
 
 std::string drift_text(const Drift& drift, const std::string& unit) {
@@ -191,15 +183,20 @@ std::string grid_text(const ResultFiles& f) {
 std::string sheet_text(const ResultFiles& f) {
   std::string out = fmt::format("\n## What to build\n\n**{}**\n", recommendation(f));
   for (const std::string& said : grounds(f)) out += "\n- " + said;
-  out += "\n\n" + markdown_head({"dimension", "build", "tolerance down", "up"});
-  for (const SheetRow& row : sheet_rows(f)) {
-    const Json text = row_json(row)["text"];
-    out += markdown_row({row.path, text["build"], text["down"], text["up"]});
+  out += "\n";
+  // A flat surface whose finish is that of the study has no number that was searched.
+  if (const std::vector<SheetRow> rows = sheet_rows(f); !rows.empty()) {
+    out += "\n" + markdown_head({"dimension", "build", "tolerance down", "up"});
+    for (const SheetRow& row : rows) {
+      const Json text = row_json(row)["text"];
+      out += markdown_row({row.path, text["build"], text["down"], text["up"]});
+    }
+    out +=
+        "\nTolerance: how far it may be off before an objective worsens by 5 % or a limit is "
+        "reached, one dimension at a time." +
+        grid_text(f) + "\n";
   }
-  out +=
-      "\nTolerance: how far it may be off before an objective worsens by 5 % or a limit is "
-      "reached, one dimension at a time." +
-      grid_text(f) + "\n" + limits_table(built_limits(f));
+  out += limits_table(built_limits(f));
   if (const std::string yield = yield_text(f); !yield.empty()) out += "\n" + yield + "\n";
   return out;
 }

@@ -23,8 +23,7 @@ namespace {
 
 // "0.612 ± 0.014 (0.051)": its own error, in brackets the model part.
 std::string with_errors(const StudyObjective& o, const Score& score, std::size_t k) {
-  std::string out = fmt::format("{} ± {}", shown_value(o.expression, score.values[k]),
-                                shown_error(o.expression, score.errors[k]));
+  std::string out = shown_with_error(o.expression, score.values[k], score.errors[k]);
   if (const auto parameters = parameter_error(score, k))
     out += fmt::format(" ({})", shown_error(o.expression, *parameters));
   return out;
@@ -38,6 +37,7 @@ std::string heading(const StudyObjective& o) {
 // What decides which of the front is the best, in words.
 std::string rule_text(const ResultFiles& f) {
   const Decision& d = f.result.decision;
+  if (d.made() && d.designs.size() == 1) return "the one design on the front";
   if (d.made() && f.result.best == d.best) {
     return (f.problem.belief_risk().regret
                 ? "the least expected regret over belief"
@@ -99,9 +99,8 @@ std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
     out += "| " + name + " |";
     for (std::size_t k = 0; k < objectives.size(); ++k) {
       const MetricExpression& e = objectives[k].expression;
-      out +=
-          fmt::format(" {} ± {}", shown_value(e, best.confirmed.values[k] - other.values[k], true),
-                      shown_error(e, difference_error(best.confirmed, other, k)));
+      out += " " + shown_with_error(e, best.confirmed.values[k] - other.values[k],
+                                    difference_error(best.confirmed, other, k), true);
       if (const auto part = parameter_error(best.confirmed, other, k))
         out += fmt::format(" ({})", shown_error(e, *part));
       out += " |";

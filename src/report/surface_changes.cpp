@@ -22,17 +22,20 @@ std::string score_changes(const ResultFiles& f, const Pair& words, const Score& 
     const double error = difference_error(design, other, k);
     if (std::abs(change) <= error) continue;
     // A quantity without an error, an appearance, changes by rounding alone.
-    if (shown_value(o.expression, change) == shown_value(o.expression, 0)) continue;
+    if (!scatters(design.values[k], std::abs(change)) ||
+        std::abs(change) < resolution(o.expression))
+      continue;
     const bool raised = change > 0, gain = raised == o.maximise;
     const StatedNumber by =
         raised ? difference_number(f, words.design + " less " + words.other, design, other, k)
                : difference_number(f, words.other + " less " + words.design, other, design, k);
-    const std::string bar = scatters(change, error) ? " ± " + shown_error(o.expression, error) : "";
+    const std::string size = scatters(change, error)
+                                 ? shown_with_error(o.expression, std::abs(change), error)
+                                 : shown_value(o.expression, std::abs(change));
     const std::string unit = shown_unit(o.expression).unit;
     (gain ? better : worse)
         .push_back(fmt::format("{} {} by {} ({})", raised ? "raises" : "lowers", o.name,
-                               stated(by, shown_value(o.expression, std::abs(change)) + bar +
-                                              (unit.empty() ? "" : " " + unit)),
+                               stated(by, size + (unit.empty() ? "" : " " + unit)),
                                gain ? "better" : "worse"));
   }
   better.insert(better.end(), worse.begin(), worse.end());

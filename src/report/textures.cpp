@@ -168,7 +168,7 @@ std::string other_textures(const ResultFiles& f) {
     const std::string name = design_name(d.folder);
     const std::string all =
         score_changes(f, {name, "what is recommended without texture"}, d.confirmed, flat);
-    if (all.empty()) continue;  // it gains less than is shown
+    if (all.empty()) continue;  // it gains no more than instruments resolve
     std::vector<std::string> finish;
     const std::vector<double> values = f.problem.space().value(d.unit);
     for (const std::size_t k : finish_apart(f, d.unit, recommended.unit)) {

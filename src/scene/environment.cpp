@@ -110,11 +110,28 @@ double Surface::equivalent_thickness() const {
 
 std::vector<Dielectric> Surface::layers() const { return {dielectric.begin(), dielectric.end()}; }
 
-std::vector<Dielectric> Surface::thinnest_layers(double deepest) const {
+std::vector<Dielectric> Surface::thinnest_layers(const FilmGround& ground) const {
   std::vector<Dielectric> out = layers();
   if (const int carrying = carrying_layer(); carrying >= 0) {
     double& thickness = out[static_cast<std::size_t>(carrying)].thickness;
-    thickness = std::max(0.0, thickness - deepest);
+    thickness = std::max(0.0, thickness - ground.deepest);
+    return out;
+  }
+  // Layers of one step coverage erode the surface together like one of their whole thickness.
+  double directional = 0;
+  for (const FilmDielectric& layer : dielectric) {
+    if (layer.made_by(process) == FilmProcess::Directional) directional += layer.thickness;
+  }
+  if (directional <= 0) return out;
+  // From the foot of the wall; a low one does not come below the film on the land beside it.
+  const double along =
+      std::max(std::cos(ground.steepest), 1 - ground.height / directional);  // of the normal on z
+  const double left = std::sqrt(square(along) + square(step_coverage) * (1 - square(along)));
+  constexpr double kNoFilm = 1e-10;  // [m] thinner than an atom: the wall is bare
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    if (dielectric[k].made_by(process) != FilmProcess::Directional) continue;
+    double& thickness = out[k].thickness;
+    thickness = left * directional > kNoFilm ? left * thickness : 0;
   }
   return out;
 }

@@ -88,6 +88,13 @@ struct FilmDielectric : Dielectric {
 };
 void fields(FieldVisitor& v, FilmDielectric& s);
 
+// What a film lies on, where that makes it thinner than on level ground.
+struct FilmGround {
+  double deepest = 0;   // lowest place below height 0 [m]
+  double height = 0;    // of walls [m]
+  double steepest = 0;  // angle of walls from the land [rad]
+};
+
 // The finish of the textured surface.
 struct Surface {
   double contact_angle = 0.8726646259971648;                    // 50 deg
@@ -108,9 +115,9 @@ struct Surface {
   double equivalent_thickness() const;     // sum of d/eps [m]
   double dielectric_thickness() const;     // of all layers [m]
   std::vector<Dielectric> layers() const;  // without how they were made
-  // Those at the thinnest place of the film below a texture that lies that deep [m]: planar layers
-  // are thinner there.
-  std::vector<Dielectric> thinnest_layers(double deepest) const;
+  // Those on the shortest way from the surface to the electrode: over the deepest place of a planar
+  // layer; else past a wall, on which directional layers are thin. Eq. electrostatics.9
+  std::vector<Dielectric> thinnest_layers(const FilmGround& ground) const;
   double saturated_air_field() const { return scene::saturated_air_field(layers()); }
   // The layer that a texture is cut into or imprinted on; -1: none is planar.
   int carrying_layer() const;

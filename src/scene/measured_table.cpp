@@ -192,6 +192,7 @@ class TableReader {
     }
   }
 
+  // low, high: SI. What is said is in the unit of the column, as the cell is.
   std::optional<double> number(const TableColumn& column, std::string_view cell, int place,
                                double low, double high) {
     const auto value = cell_number(cell);
@@ -202,7 +203,8 @@ class TableReader {
     const double si = *value * column.to_si;
     if (!(si >= low && si <= high)) {
       problem(column.kind->name,
-              fmt::format("{} lies outside {} to {} {}", cell, low, high, column.kind->unit),
+              fmt::format("{} lies outside {:.12g} to {:.12g} {}", cell, low / column.to_si,
+                          high / column.to_si, column.unit),
               place);
       return std::nullopt;
     }

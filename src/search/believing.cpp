@@ -5,11 +5,24 @@
 namespace papilla::search {
 namespace {
 
+// The first task without an answer at the members, and why; "": all have one.
+std::string without_members(const StudyProblem& problem, const std::vector<TaskAnswer>& answers) {
+  for (std::size_t t = 0; t < answers.size(); ++t) {
+    const TaskAnswer& answer = answers[t];
+    if (answer.status.ok() && !answer.members.empty()) continue;
+    return problem.tasks()[t].name + ": " +
+           (answer.status.ok() ? "the answer has no members" : answer.status.text);
+  }
+  return {};
+}
+
 void judge_members(Run& run, FinalDesign& f) {
   std::vector<TaskRequest> requests;
   for (std::size_t t = 0; t < run.problem.nominal_tasks(); ++t)
     requests.push_back({Stage::Belief, t, false, f.unit, run.confirm_seconds});
   const std::vector<TaskAnswer> answers = run.replay.answers(requests);
+  f.unjudged = without_members(run.problem, answers);
+  if (!f.unjudged.empty()) return;
   run.problem.add_steps(f.confirmed, answers);
   add_members(run.problem, answers, f);
 }

@@ -1,5 +1,7 @@
 #include "search/decision.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,9 +13,10 @@
 namespace papilla::search {
 namespace {
 
-// A task's confirmed answer at a member.
+// A task's confirmed answer at a member; the first that is refused of those that it is made of.
 TaskAnswer moved_answer(const StudyGoals& goals, const TaskAnswer& confirmed, const TaskAnswer& own,
                         const TaskAnswer& there) {
+  if (!confirmed.status.ok()) return confirmed;
   if (!own.status.ok()) return own;
   if (!there.status.ok()) return there;
   TaskAnswer out = confirmed;
@@ -44,22 +47,41 @@ double skin_move(const std::vector<double>& samples, std::size_t skin) {
   return skin < samples.size() ? error_moves(samples)[skin] : 0;
 }
 
-TaskAnswer by_skin(const StudyGoals& goals, const TaskAnswer& answer, std::size_t skin) {
+// The answer with each of its numbers moved by what `move` says of the samples behind it.
+template <class Move>
+TaskAnswer moved_by(const StudyGoals& goals, const TaskAnswer& answer, const Move& move) {
   TaskAnswer out = answer;
   for (std::size_t k = 0; k < answer.samples.size(); ++k) {
     TaskObjective& o = out.objectives[k];
-    const auto of = [&](double& number, std::size_t i) {
-      number += skin_move(answer.samples[k][i].sampling, skin);
-    };
     if (goals.by_points(k)) {
-      for (std::size_t i = 0; i < o.points.size(); ++i) of(o.points[i], i);
+      for (std::size_t i = 0; i < o.points.size(); ++i) o.points[i] += move(answer.samples[k][i]);
     } else {
-      of(o.value, 0);
+      o.value += move(answer.samples[k][0]);
     }
   }
-  out.worst += skin_move(answer.worst_samples, skin);
+  out.worst += move(answer.worst_samples);
   out.samples.clear();
   return out;
+}
+
+TaskAnswer by_skin(const StudyGoals& goals, const TaskAnswer& answer, std::size_t skin) {
+  return moved_by(goals, answer,
+                  [&](const ErrorSamples& of) { return skin_move(of.sampling, skin); });
+}
+
+// By a standard error of what few skins say of the correction to the 3-D field.
+TaskAnswer by_own_field(const StudyGoals& goals, const TaskAnswer& answer) {
+  return moved_by(goals, answer, [](const ErrorSamples& of) { return of.field.own; });
+}
+
+// How far the corrections of two confirmed designs are off alike: by the first objective that has
+// some, over all tasks and humidities.
+double field_correlation(const Score& a, const Score& b) {
+  for (std::size_t k = 0; k < std::min(a.samples.size(), b.samples.size()); ++k) {
+    if (!a.samples[k].field.corrections.empty())
+      return metrics::field_correlation(a.samples[k].field, b.samples[k].field);
+  }
+  return 0;
 }
 
 // As members move the number that a rule goes by. Eq. accuracy.15
@@ -70,7 +92,7 @@ bool moves_in_proportion(const StudyProblem& problem, const PickRule& rule) {
 }
 
 std::size_t skins_behind(const TaskAnswer& answer) {
-  std::size_t out = answer.worst_samples.size();
+  std::size_t out = answer.worst_samples.sampling.size();
   for (const std::vector<ErrorSamples>& objective : answer.samples) {
     for (const ErrorSamples& number : objective) out = std::max(out, number.sampling.size());
   }
@@ -119,6 +141,18 @@ std::vector<MemberGroup> hypotheses_of(const Belief& belief) {
     group->members.push_back(m);
   }
   return out.size() > 1 ? out : std::vector<MemberGroup>{};
+}
+
+// Why a design of the front has no members, and what to do about it.
+std::string unjudged_text(const FinalDesign& f) {
+  if (f.unjudged.empty())
+    return "the members of belief were not evaluated in the time: give the search more time "
+           "(`search.time`), or less to evaluate";
+  return fmt::format(
+      "{} has no answer at the members of belief ({}), and --resume asks no task again: give each "
+      "task less to evaluate (`accuracy.level`), or memory for fewer at a time (`search.jobs`), "
+      "with another --out folder",
+      f.folder, f.unjudged);
 }
 
 // Of the finger, those that are not the same in all members; of a list its first that moves.
@@ -179,6 +213,15 @@ MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDes
   const bool in_proportion = moves_in_proportion(problem, rule);
   combine_levels(confirmed, few, in_proportion, out);
   shrink_moves(confirmed, in_proportion, out);
+  std::vector<double> own;  // of the worth
+  std::vector<std::vector<double>> alike(designs.size());
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    const double move = worth_of(designs[i].confirmed_by_field) - confirmed[i].worth;
+    own.push_back(std::isfinite(move) ? move : 0);
+    for (const FinalDesign& other : designs)
+      alike[i].push_back(field_correlation(designs[i].confirmed, other.confirmed));
+  }
+  add_field_moves(confirmed, own, alike, in_proportion, out);
   return out;
 }
 
@@ -255,6 +298,9 @@ void add_members(const StudyProblem& problem, const std::vector<TaskAnswer>& ans
   };
   design.confirmed_by_skin =
       skinned([&](std::size_t t, auto&& by) { return by(confirmed[t]); }).by_skin;
+  std::vector<TaskAnswer> by_field;
+  for (const TaskAnswer& a : confirmed) by_field.push_back(by_own_field(goals, a));
+  design.confirmed_by_field = problem.score_without_yield(by_field);
   for (std::size_t m = 0; m < members; ++m) {
     std::vector<TaskAnswer> moved;
     for (std::size_t t = 0; t < tasks; ++t)
@@ -277,7 +323,10 @@ std::vector<bool> on_front_of_belief(const StudyProblem& problem,
   std::vector<std::size_t> place;
   std::vector<FinalDesign> asked;
   for (std::size_t i = 0; i < finalists.size(); ++i) {
-    if (finalists[i].members.empty()) continue;
+    if (finalists[i].members.empty()) {
+      out[i] = finalists[i].on_front;
+      continue;
+    }
     place.push_back(i);
     asked.push_back(finalists[i]);
   }
@@ -320,7 +369,7 @@ Decision decide(const StudyProblem& problem, const std::vector<FinalDesign>& fin
     if (!f.on_front) break;
     front.push_back(f);
     candidates.push_back(pick_candidate(problem, f.confirmed));
-    if (f.members.empty()) out.absent = "its members were not evaluated in the time";
+    if (f.members.empty() && out.absent.empty()) out.absent = unjudged_text(f);
   }
   if (front.empty()) out.absent = "no finalist keeps every limit";
   if (!out.absent.empty()) return out;

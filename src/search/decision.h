@@ -43,13 +43,15 @@ struct Decision {
 
 // What a confirmed design has at the members of belief, and what the skins leave open of it: its
 // numbers moved as the members move them on few skins. answers: evaluate_steps of each task as
-// designed. A score is not ok where a task has no answer there. Eq. accuracy.15
+// designed, each with its members. A score is not ok where a task has no answer there.
+// Eq. accuracy.15
 void add_members(const StudyProblem& problem, const std::vector<TaskAnswer>& answers,
                  FinalDesign& design);
 
 // Whether no other of the finalists is better in every objective and, where designs are judged at
 // the study's own amplitude, in the worst modulation by the confirmed numbers and by what it is
-// worth at every member of belief.
+// worth at every member of belief. A finalist without members stays where its confirmed numbers
+// put it: nothing else is known of it.
 std::vector<bool> on_front_of_belief(const StudyProblem& problem,
                                      const std::vector<FinalDesign>& finalists);
 

@@ -200,8 +200,10 @@ double task_price(const StudyProblem& problem, Stage stage, double most_seconds)
   const Fidelity f = stage_fidelity(problem, stage, most_seconds);
   if (stage != Stage::Steps && stage != Stage::Belief) return priced(problem, f);
   const ModelCost cost = steps_cost(problem, f);
-  if (problem.belief()) return cost.runs * priced(problem, cost.fidelity);
-  return cost.runs * plan_at(problem, cost.fidelity).seconds();
+  // Who feels it is said with the errors of the confirmed modulation (evaluate_steps).
+  const double confirmed = problem.goals().felt ? plan_at(problem, f).seconds() : 0;
+  if (problem.belief()) return confirmed + cost.runs * priced(problem, cost.fidelity);
+  return confirmed + cost.runs * plan_at(problem, cost.fidelity).seconds();
 }
 
 double over_price(Stage stage) {

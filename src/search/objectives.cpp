@@ -104,8 +104,7 @@ void check_pen(const Study& study, const StudyObjective& o) {
 // Eq. search.9
 double tolerated_loss(const StudyObjective& o, double value) {
   constexpr double kShare = 0.05;
-  const MetricExpression& e = o.expression;
-  return std::hypot(kShare * value, is_spread(e.summary) ? 0 : info_of(e.metric).resolution);
+  return std::hypot(kShare * value, resolution(o.expression));
 }
 
 bool StudyGoals::by_points(std::size_t objective) const {
@@ -141,6 +140,7 @@ StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks) 
     }
     goals.looks = goals.looks || std::holds_alternative<LookMetric>(metric);
     goals.pull_in = goals.pull_in || std::holds_alternative<PullInMargin>(metric);
+    goals.felt = goals.felt || std::holds_alternative<Felt>(metric);
     list.push_back(std::move(objective));
   };
   const auto wish = [&](const char* key, StudyObjective objective) {

@@ -34,6 +34,7 @@ struct StudyGoals {
   Risk risk;
   bool looks = false;    // an objective or a constraint is about the look
   bool pull_in = false;  // or about pull-in
+  bool felt = false;     // or about who feels it, which takes the errors of the modulation
   bool pen = false;      // or about the pen, which is then evaluated beside the finger
   // A limit is on the yield: the others are then asked of the design as drawn.
   bool yield = false;

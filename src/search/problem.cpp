@@ -7,10 +7,15 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
 
+#include "base/digest.h"
+#include "base/files.h"
 #include "base/random.h"
 #include "config/writer.h"
+#include "design/design.h"
 #include "estimate/belief.h"
+#include "geometry/io/files.h"
 #include "search/protocol.h"
 
 namespace papilla::search {
@@ -166,11 +171,17 @@ std::string StudyProblem::identity() const {
   out += study_.objective.risk + "\n";
   for (const Constraint& c : study_.constraints)
     out += fmt::format("{} {:a}\n", limit_name(c.on), c.limit);
+  std::set<std::string> maps;
   for (const StudyTask& t : tasks_) {
+    Design under = study_.design;
+    under.finger = t.finger;
+    for (const std::string* file : map_files(under)) maps.insert(map_name(*file).file);
     out += fmt::format("{} {:a}\n", t.name, t.weight) + to_toml(t.finger);
     if (!t.finger.belief.empty()) out += belief_text(belief_of(t.finger));
     for (const Setting& s : t.settings) out += fmt::format("{} {:a}\n", s.path, s.value);
   }
+  // By what is in them: a run is resumed where its folder and its maps were copied to.
+  for (const std::string& file : maps) out += sha256(read_bytes(file)) + "\n";
   return out +
          fmt::format("{} {} {}\n", study_.search.method, study_.search.seed, study_.search.drafts);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "base/check.h"
@@ -72,6 +73,7 @@ MemberWorth of_members(const MemberWorth& all, const std::vector<std::size_t>& m
     for (std::size_t m : members) of.push_back(from[m]);
   };
   picked(out.weights);
+  if (!out.draw_of.empty()) picked(out.draw_of);
   for (auto& of : out.worth) picked(of);
   for (auto& design : out.kept) {
     for (auto& of : design) picked(of);
@@ -131,10 +133,31 @@ std::size_t skins_of(const MemberWorth& d) {
   return out;
 }
 
+// L of L L^T = a correlation matrix, by Cholesky's method; what rules on pairs leave indefinite of
+// it is left out.
+std::vector<std::vector<double>> correlation_root(
+    const std::vector<std::vector<double>>& correlation) {
+  constexpr double kNothingLeft = 1e-9;
+  const std::size_t n = correlation.size();
+  std::vector<std::vector<double>> out(n, std::vector<double>(n, 0));
+  for (std::size_t k = 0; k < n; ++k) {
+    const double pivot = 1 - squares(out[k]);
+    if (pivot < kNothingLeft) continue;
+    out[k][k] = std::sqrt(pivot);
+    for (std::size_t i = k + 1; i < n; ++i) {
+      const double common = std::inner_product(out[i].begin(), out[i].end(), out[k].begin(), 0.0);
+      const double most = std::sqrt(std::max(0.0, 1 - squares(out[i])));
+      out[i][k] = std::clamp((correlation[i][k] - common) / out[k][k], -most, most);
+    }
+  }
+  return out;
+}
+
 // A member at a draw of the skins, one more of the members of `out`.
 void add_draw(const MemberWorth& all, std::size_t member, const std::vector<double>& z,
               MemberWorth& out) {
   out.weights.push_back(all.weights[member]);
+  out.draw_of.push_back(all.draw_of.empty() ? member : all.draw_of[member]);
   out.worth.resize(all.worth.size());
   out.kept.resize(all.kept.size());
   for (std::size_t i = 0; i < all.worth.size(); ++i) {
@@ -181,9 +204,30 @@ BeliefRisk parse_belief_risk(const std::string& text) {
   try {
     return {false, parse_risk(text)};
   } catch (const InputError&) {
-    throw InputError("risk.belief: \"" + text +
-                     "\": expected \"regret\", \"mean\", \"worst 10 %\", \"mean - 2 std\" or "
-                     "\"worst\"");
+    throw InputError("risk.belief: \"" + text + "\": expected " + belief_risk_forms());
+  }
+}
+
+std::string belief_risk_forms() {
+  return "\"regret\", \"mean\", \"worst 10 %\", \"mean - 2 std\" or \"worst\"";
+}
+
+void add_field_moves(const std::vector<WorthBySkin>& confirmed, const std::vector<double>& moves,
+                     const std::vector<std::vector<double>>& correlation, bool in_proportion,
+                     MemberWorth& designs) {
+  const std::size_t n = moves.size();
+  if (std::all_of(moves.begin(), moves.end(), [](double move) { return move == 0; })) return;
+  const std::vector<std::vector<double>> root = correlation_root(correlation);
+  const std::size_t skins = skins_of(designs);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t m = 0; m < designs.by_skin[i].size(); ++m) {
+      const double worth = designs.worth[i][m];
+      const bool scales = in_proportion && confirmed[i].worth != 0 && !std::isnan(worth);
+      const double there = moves[i] * (scales ? worth / confirmed[i].worth : 1);
+      std::vector<double>& by_skin = designs.by_skin[i][m];
+      by_skin.resize(skins, 0);
+      for (std::size_t k = 0; k < n; ++k) by_skin.push_back(there * root[i][k]);
+    }
   }
 }
 
@@ -307,27 +351,48 @@ void shrink_moves(const std::vector<WorthBySkin>& own, bool in_proportion, Membe
   }
 }
 
+std::vector<double> less_sure(const std::vector<double>& weights,
+                              const std::vector<std::vector<bool>>& keeps) {
+  const double all = total(weights);
+  std::vector<double> kept(keeps.size(), 0);
+  for (std::size_t i = 0; i < keeps.size(); ++i) {
+    for (std::size_t m = 0; m < weights.size(); ++m) kept[i] += keeps[i][m] ? weights[m] / all : 0;
+  }
+  const auto surest =
+      static_cast<std::size_t>(std::max_element(kept.begin(), kept.end()) - kept.begin());
+  std::vector<double> out(keeps.size(), 0);
+  for (std::size_t i = 0; i < keeps.size(); ++i) {
+    const double less = kept[surest] - kept[i];
+    if (!(less > 1e-9)) continue;  // weights are sums of fractions
+    double variance = 0;  // by the members at which one of both keeps every limit. Eq. search.17
+    for (std::size_t m = 0; m < weights.size(); ++m) {
+      const double here = (keeps[surest][m] ? 1 : 0) - (keeps[i][m] ? 1 : 0);
+      variance += square(weights[m] / all * (here - less));
+    }
+    out[i] = variance > 0 ? less / std::sqrt(variance) : kInfinity;
+  }
+  return out;
+}
+
 namespace {
 
-// By the members at which one of both keeps every limit. Eq. search.17
-void add_less_sure(const MemberWorth& d, std::vector<Prospect>& found) {
-  const auto surest =
-      static_cast<std::size_t>(std::max_element(found.begin(), found.end(),
-                                                [](const Prospect& a, const Prospect& b) {
-                                                  return a.p_limits < b.p_limits;
-                                                }) -
-                               found.begin());
-  const double all = total(d.weights);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const double less = found[surest].p_limits - found[i].p_limits;
-    if (!(less > 1e-9)) continue;  // weights are sums of fractions
-    double variance = 0;
-    for (std::size_t m = 0; m < d.weights.size(); ++m) {
-      const double here = (d.keeps(surest, m) ? 1 : 0) - (d.keeps(i, m) ? 1 : 0);
-      variance += square(d.weights[m] / all * (here - less));
+// Draws put together as the members that they are of: two draws of a member tell no more than it.
+void set_less_sure(const MemberWorth& d, std::vector<Prospect>& found) {
+  std::map<std::size_t, std::size_t> place;  // of a member
+  std::vector<double> weights;
+  std::vector<std::vector<bool>> keeps(found.size());
+  for (std::size_t m = 0; m < d.weights.size(); ++m) {
+    const auto [member, is_new] =
+        place.try_emplace(d.draw_of.empty() ? m : d.draw_of[m], weights.size());
+    if (!is_new) {
+      weights[member->second] += d.weights[m];
+      continue;
     }
-    found[i].less_sure = variance > 0 ? less / std::sqrt(variance) : kInfinity;
+    weights.push_back(d.weights[m]);
+    for (std::size_t i = 0; i < found.size(); ++i) keeps[i].push_back(d.keeps(i, m));
   }
+  const std::vector<double> of = less_sure(weights, keeps);
+  for (std::size_t i = 0; i < found.size(); ++i) found[i].less_sure = of[i];
 }
 
 }  // namespace
@@ -366,7 +431,7 @@ std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& ri
     else if (!worth.empty())
       p.merit = apply_risk(risk.risk, true, worth, weights);
   }
-  add_less_sure(designs, out);  // draws of skins are no members
+  set_less_sure(designs, out);
   return out;
 }
 

@@ -20,6 +20,7 @@ struct BeliefRisk {
 };
 // "regret", or what parse_risk reads. Throws InputError.
 BeliefRisk parse_belief_risk(const std::string& text);
+std::string belief_risk_forms();  // for people: "regret" and the others
 
 // Designs at the members of a belief. All meet the same members: what these do to all of them alike
 // cancels.
@@ -32,6 +33,9 @@ struct MemberWorth {
   // to its variance. Designs share their skins, so much of it is common to them. Empty: the worth
   // has no sampling error.
   std::vector<std::vector<std::vector<double>>> by_skin{};
+  // Where members are draws of others: which each is a draw of. Draws of one share its limits, and
+  // it counts once where members tell designs apart. Empty: each is its own.
+  std::vector<std::size_t> draw_of{};
 
   // Some design is worth something there.
   bool known(std::size_t member) const;
@@ -59,6 +63,12 @@ void combine_levels(const std::vector<WorthBySkin>& confirmed, const std::vector
 // alike stays: one factor on `own` if in_proportion, else one shift. The uncertainty of the
 // shrinkage is added to by_skin as one more skin. Eq. search.23
 void shrink_moves(const std::vector<WorthBySkin>& own, bool in_proportion, MemberWorth& designs);
+// Adds to by_skin what few skins leave open of each design's correction to the 3-D field, as one
+// more skin a design. moves: a standard error of it, of the confirmed worths; correlation: of these
+// errors, [design][design]. in_proportion: members scale it as they scale the worth. Eq. search.15
+void add_field_moves(const std::vector<WorthBySkin>& confirmed, const std::vector<double>& moves,
+                     const std::vector<std::vector<double>>& correlation, bool in_proportion,
+                     MemberWorth& designs);
 
 // One design over the belief. p_best, regret and merit are taken over the members at which any
 // design has a worth, p_limit and p_limits over all members.
@@ -68,11 +78,15 @@ struct Prospect {
   double merit = 0;               // what the risk makes of it: the highest is chosen. Eq. search.17
   std::vector<double> p_limit{};  // of each limit to be kept
   double p_limits = 1;            // of all of them together
-  // How far p_limits is below the highest of the designs, in standard errors of their difference
-  // over the members.
-  double less_sure = 0;
+  double less_sure = 0;           // of less_sure()
 };
 std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& risk);
+
+// How far the probability of each design to keep every limit is below the highest of them, in
+// standard errors of their difference over the members. weights: of the members; only their ratios
+// count. keeps: [design][member]. Eq. search.17
+std::vector<double> less_sure(const std::vector<double>& weights,
+                              const std::vector<std::vector<bool>>& keeps);
 
 // p_best and regret that would be left with infinitely many skins. Each draw of the sampling error
 // is taken as the truth, the design that is chosen then is judged, and its numbers are averaged

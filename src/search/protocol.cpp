@@ -34,8 +34,12 @@ void members(Codec& c, Look& l) {
            l.gloss_85, l.distinctness, l.sparkle);
 }
 template <class Codec>
+void members(Codec& c, FieldPart& f) {
+  code_all(c, f.common, f.own, f.corrections, f.of_skins);
+}
+template <class Codec>
 void members(Codec& c, ErrorSamples& s) {
-  code_all(c, s.sampling, s.grid, s.method);
+  code_all(c, s.sampling, s.grid, s.method, s.field);
 }
 template <class Codec>
 void members(Codec& c, TaskAnswer& a) {

@@ -14,7 +14,7 @@
 namespace papilla::search {
 
 // Raised when the meaning or the order of what is encoded changes: part of the journal's key.
-constexpr int kProtocol = 8;
+constexpr int kProtocol = 9;
 
 // What a design is asked for, each at its level (levels.h).
 enum class Stage {
@@ -86,7 +86,7 @@ struct TaskAnswer {
   // [objective][number that it is made of], and of `worst`: their mean is the number; only of
   // confirmed tasks and of the members of a belief.
   std::vector<std::vector<ErrorSamples>> samples;
-  std::vector<double> worst_samples;
+  ErrorSamples worst_samples;
   // [objective]; empty: not asked for. An objective's own is empty where a step is not defined.
   std::vector<StepSamples> steps;
   // At each member of the finger's belief, last as the finger is, on few skins; empty: not asked

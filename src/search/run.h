@@ -58,11 +58,16 @@ struct FinalDesign {
   Design design;
   Score searched, confirmed;
   std::vector<TaskAnswer> answers;  // behind the confirmed score, without their reports
-  std::vector<Score> members;       // at each member of belief; empty: not asked for
-  // Both are empty where `members` is. confirmed_by_skin: [skin] `confirmed`, moved by that skin's
+  std::vector<Score> members;       // at each member of belief; empty: not asked for or unjudged
+  // Why a task that was asked for its members has none, for people; "": none is missing.
+  std::string unjudged;
+  // All are empty where `members` is. confirmed_by_skin: [skin] `confirmed`, moved by that skin's
   // share of its standard error. few: the scores on few skins alone, one per member and last the
   // finger as it is; `members` are `confirmed` moved by the differences between these.
   std::vector<Score> confirmed_by_skin;
+  // `confirmed`, moved by a standard error of what few skins say of its correction to the 3-D
+  // field.
+  Score confirmed_by_field;
   std::vector<ScoreBySkin> few;
   bool feasible = false, on_front = false;
   // "front/01"; "best" for the least-violating one where none keeps every constraint; empty for the

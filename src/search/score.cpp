@@ -108,6 +108,28 @@ std::vector<double> combined_samples(const Scoring& s, std::size_t k, const Numb
   return jackknife_samples(objective(std::nullopt), without);
 }
 
+// All tasks' corrections to the 3-D field moved at once: their skins are the same.
+FieldPart combined_field(const Scoring& s, std::size_t k, const Numbers& numbers, double value,
+                         const std::vector<TaskAnswer>& answers) {
+  FieldPart out;
+  Numbers common = numbers, own = numbers;
+  double squares = 0;
+  for (std::size_t t = 0; t < numbers.size(); ++t) {
+    for (std::size_t i = 0; i < numbers[t].size(); ++i) {
+      const FieldPart& of = answers[t].samples[k][i].field;
+      common[t][i] += of.common;
+      own[t][i] += of.own;
+      out.corrections.insert(out.corrections.end(), of.corrections.begin(), of.corrections.end());
+      squares += static_cast<double>(of.corrections.size()) * square(of.of_skins);
+    }
+  }
+  out.common = combined(s, k, common, nullptr) - value;
+  out.own = combined(s, k, own, nullptr) - value;
+  if (!out.corrections.empty())
+    out.of_skins = std::sqrt(squares / static_cast<double>(out.corrections.size()));
+  return out;
+}
+
 // Follows the objectives through the samples of confirmed tasks. Eq. accuracy.14
 void add_samples(Score& score, const Scoring& s, const std::vector<TaskAnswer>& answers) {
   for (const TaskAnswer& a : answers) {
@@ -119,13 +141,14 @@ void add_samples(Score& score, const Scoring& s, const std::vector<TaskAnswer>& 
     const Numbers numbers = numbers_of(s.goals, k, answers);
     for (const auto list : kSampleLists)
       samples.*list = combined_samples(s, k, numbers, score.values[k], list, answers);
+    samples.field = combined_field(s, k, numbers, score.values[k], answers);
     // The tasks state the error of their own summaries, not that of a risk over them.
     const bool by_risk = s.goals.by_points(k) || s.goals.risk.kind != Risk::Kind::Mean ||
                          (s.nominal > 1 && takes_the_worst(s.goals.objectives[k]));
     if (by_risk && samples.sampling.size() > 1) {
       score.errors[k] =
           std::sqrt(square(mean_estimate(samples.sampling).se) + square(grid_error(samples.grid)) +
-                    square(method_error(samples.method)));
+                    square(method_error(samples.method)) + square(samples.field.error()));
     }
   }
 }

@@ -61,7 +61,7 @@ void add_samples(const StudyGoals& goals, const Responses& responses, TaskAnswer
     for (std::size_t i = 0; i < response.points.size(); ++i)
       of.push_back(error_samples_at(i, e.metric, response));
   }
-  answer.worst_samples = error_samples(Summary::Worst, kModulation, responses.own).sampling;
+  answer.worst_samples = error_samples(Summary::Worst, kModulation, responses.own);
 }
 
 // Finalists are worth the target of the study; the search is not.
@@ -113,9 +113,7 @@ TaskObjective objective_of(const StudyObjective& o, const SummaryValue& value,
 double oxide_margin(const StudyGoals& goals, const Design& d, const Response& response) {
   double out = kInfinity;
   for (const ResponsePoint& p : response.points) {
-    if (goals.own_amplitude)
-      out = std::min(
-          {out, p.oxide_margin, bridged_margin(d.surface, d.texture, d.drive, p.source_voltage)});
+    if (goals.own_amplitude) out = std::min({out, p.oxide_margin, p.bridged_margin});
     for (const VoltageAnswer& v : p.voltages)
       out = std::min(out, breakdown_voltage(d.surface, d.texture, d.drive) / v.amplitude.value);
   }
@@ -146,6 +144,7 @@ std::optional<TaskAnswer> complete(Response& response, const StudyGoals& goals, 
   if (goals.own_amplitude && std::any_of(troubles.begin(), troubles.end(),
                                          [](const PointTrouble& t) { return t.status.pull_in(); }))
     return TaskAnswer::refused(Kind::NoEquilibrium, task + ", " + forward::text(troubles));
+  set_bridged_margins(response, scene, d.texture);
   if (goals.pull_in) add_pull_in(response, scene, d.texture, fidelity);
   if (!goals.voltage_targets.empty())
     add_voltages(response, scene, d.texture, fidelity, goals.voltage_targets);
@@ -232,13 +231,14 @@ std::vector<TaskAnswer> member_answers(const StudyGoals& goals, const Scene& sce
 }  // namespace
 
 TaskAnswer evaluate_steps(const StudyProblem& problem, const Design& design, std::size_t task,
-                          const Fidelity& fidelity, bool flat) {
-  const Design d = task_design(problem.study(), design, problem.tasks().at(task), flat);
-  Response response;
-  if (problem.goals().looks) response.appearance = appearance_of(d);
+                          const TaskWork& work) {
+  const Design d = task_design(problem.study(), design, problem.tasks().at(task), work.flat);
   const Scene scene = scene_of(d);
+  Response response;
+  if (problem.goals().felt) response = respond(scene, d, work);
+  if (problem.goals().looks) response.appearance = appearance_of(d);
   response.driven = scene.drive.driven();
-  const Fidelity few = add_model_part(problem, scene, d, fidelity, response);
+  const Fidelity few = add_model_part(problem, scene, d, work.fidelity, response);
   TaskAnswer out;
   out.steps = steps_of(problem.goals(), response);
   if (!response.belief.members.empty())
@@ -257,7 +257,8 @@ Work work_function(const StudyProblem& problem, int threads, const ResponseText&
     switch (request->stage) {
       case Stage::Steps:
       case Stage::Belief:
-        return encode(evaluate_steps(problem, design, request->task, fidelity, request->flat));
+        return encode(evaluate_steps(problem, design, request->task,
+                                     {fidelity, true, {}, request->most_seconds, request->flat}));
       case Stage::Stability:
         return encode(evaluate_variant(problem, design, request->task, fidelity));
       case Stage::Search:

@@ -50,8 +50,10 @@ TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std:
 
 // The steps of the parameters alone, for a task as designed whose finger has an `uncertainty`; of a
 // belief its answer at each member too. With [accuracy] parameters a confirmed task has the steps.
+// work: that of the confirmation. Where a goal is who feels it, the design is evaluated by it
+// again: what members and steps say of that takes the errors of its modulation.
 TaskAnswer evaluate_steps(const StudyProblem& problem, const Design& design, std::size_t task,
-                          const Fidelity& fidelity, bool flat = false);
+                          const TaskWork& work);
 
 // What a worker does: a request in, an answer out. Refers to the problem.
 Work work_function(const StudyProblem& problem, int threads, const ResponseText& text);

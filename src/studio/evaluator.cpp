@@ -81,7 +81,7 @@ Evaluator::~Evaluator() {
 
 // Without its title, which says nothing about the answer.
 Evaluator::Subject Evaluator::subject_of(const Design& design) {
-  Subject out{design, maps_state(design.texture, design.finger)};
+  Subject out{design, maps_state(design)};
   out.design.title.clear();
   return out;
 }

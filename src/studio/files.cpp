@@ -13,6 +13,7 @@
 #include "fabricate/formats.h"
 #include "fabricate/verify.h"
 #include "geometry/io/files.h"
+#include "geometry/measured_map.h"
 #include "geometry/texture.h"
 #include "report/export.h"
 #include "report/json.h"
@@ -147,6 +148,7 @@ void Files::save(const Draft& draft, const Study& study, const std::string& file
 Json Files::export_preview(const Study& study) const {
   const TextureFacts known = facts(study.design.texture);
   const FabricationMargins& margins = known.margins;
+  const bool parts = std::holds_alternative<Stack>(study.design.texture.kind);
   const auto row = [&](const char* name, ShapeMargin margin) {
     return Json{{"name", name},
                 {"value", json_number(margin_of(margin, margins))},
@@ -158,13 +160,13 @@ Json Files::export_preview(const Study& study) const {
   Json formats = Json::array();
   for (const ExportFormat& f : chosen_formats(study.design.texture, options))
     formats.push_back({{"name", f.name}, {"file", f.file}, {"holds", f.holds}});
-  return {
-      {"margins",
-       {row("smallest hole", ShapeMargin::MinHole), row("smallest wall", ShapeMargin::MinWall)}},
-      {"aspect_ratio",
-       {{"value", json_number(margins.aspect_ratio)},
-        {"limit", json_number(limit_of(study, ShapeMargin::AspectRatio))}}},
-      {"formats", formats}};
+  return {{"margins",
+           {row(parts ? "smallest hole of a part" : "smallest hole", ShapeMargin::MinHole),
+            row(parts ? "smallest wall of a part" : "smallest wall", ShapeMargin::MinWall)}},
+          {"aspect_ratio",
+           {{"value", json_number(margins.aspect_ratio)},
+            {"limit", json_number(limit_of(study, ShapeMargin::AspectRatio))}}},
+          {"formats", formats}};
 }
 
 Json Files::export_files(const Study& study, const std::string& name) const {
@@ -224,12 +226,11 @@ Draft Files::with_scan(const Draft& draft, const std::string& name, const std::s
     out.changes.push_back({"texture.width", format_quantity(source.width, "um")});
   if (fill) out.changes.push_back({"texture.fill", "true"});
   if (as_is) out.changes.push_back({"texture.as_is", "true"});
-  const Heightmap map = read_scan(source).map;
-  // The whole map where it is small, else a square of it that takes no longer than another texture.
+  // As much of the map as leaves room for the seam that makes it periodic; of a large one a square
+  // that takes no longer than another texture.
   constexpr double kLargestPatch = 24e-6;
-  out.changes.push_back(
-      {"texture.patch",
-       format_quantity(std::min({map.grid.lx, map.grid.ly, kLargestPatch}), "um")});
+  const double patch = std::min(largest_patch(read_scan(source).changes), kLargestPatch);
+  out.changes.push_back({"texture.patch", format_quantity(patch, "um")});
   return out;
 }
 

@@ -18,7 +18,7 @@ namespace papilla::studio {
 std::string edited_toml(const std::string& text, const std::vector<Change>& changes);
 
 // The file that a draft is saved as: the text of its own file, edited, where it stays in that
-// folder; else a `base` and the changed keys.
+// folder; else a `base` and the changed keys; every value, where that base would lie above it.
 std::string saved_text(const Draft& draft, const std::filesystem::path& target);
 
 // The map that a measured texture is made of; empty: none.

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string_view>
 
 #include "base/error.h"
@@ -13,6 +15,7 @@
 #include "base/units.h"
 #include "config/describe.h"
 #include "config/node.h"
+#include "config/writer.h"
 #include "geometry/texture.h"
 #include "report/json.h"
 
@@ -173,6 +176,31 @@ SliderRange slider_of(const FormKey& key, double opened) {
   return {std::max(key.low, opened / kAround), std::min(key.high, kAround * opened), true};
 }
 
+// What the items of each list of a design are: their keys, and of which kind they are.
+std::map<std::string, std::string> items_of(const std::vector<FormKey>& keys) {
+  std::map<std::string, std::string> out;
+  for (const FormKey& key : keys) {
+    const std::string list = list_of(key.path);
+    if (list.empty()) continue;
+    out[list] += key.path + (key.path.ends_with(".type") ? " " + key.value : "") + "\n";
+  }
+  return out;
+}
+
+// Of both, those whose items are others.
+std::set<std::string> other_lists(const std::vector<FormKey>& from,
+                                  const std::vector<FormKey>& to) {
+  const std::map<std::string, std::string> before = items_of(from), after = items_of(to);
+  std::set<std::string> out;
+  for (const auto* side : {&before, &after}) {
+    for (const auto& [list, items] : *side) {
+      if (!before.contains(list) || !after.contains(list) || before.at(list) != after.at(list))
+        out.insert(list);
+    }
+  }
+  return out;
+}
+
 Json place_json(const Study& study, const FormKey& key, bool changed) {
   if (changed) return "changed here";
   const auto found = study.origins.find(key.path);
@@ -203,6 +231,32 @@ Change checked_change(const std::vector<FormKey>& keys, const std::string& path,
   return {path, value_text(*key, text)};
 }
 
+bool is_number(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+std::string list_of(const std::string& path) {
+  std::string out;
+  for (const std::string& part : split(path, '.')) {
+    if (is_number(part)) return out;
+    out += (out.empty() ? "" : ".") + part;
+  }
+  return "";
+}
+
+Change whole_list(const Design& design, const std::string& list) {
+  Node all = to_table(design);
+  Node* items = &all;
+  for (const std::string& part : split(list, '.')) items = items->find(part);
+  for (Node& item : items->children) {
+    std::erase_if(item.children, [](const Node& member) {
+      const Node* law = member.find("law");
+      return law && law->text == "none";
+    });
+  }
+  return {list, value_toml(*items)};
+}
+
 std::vector<Change> changes_between(const Design& from, const Design& to) {
   std::vector<Change> out;
   Design start = from;
@@ -212,14 +266,20 @@ std::vector<Change> changes_between(const Design& from, const Design& to) {
     start.texture = default_texture(static_cast<std::size_t>(
         std::find(kinds.begin(), kinds.end(), texture_name(to.texture)) - kinds.begin()));
   }
-  const std::vector<FormKey> before = form_keys(start);
-  for (const FormKey& key : form_keys(to)) {
+  const std::vector<FormKey> before = form_keys(start), after = form_keys(to);
+  const std::set<std::string> lists = other_lists(before, after);
+  // Options of the model that a file does not set are those that its finger was fitted with.
+  const bool other_defaults = !(from.finger.calibrated_for == to.finger.calibrated_for);
+  for (const FormKey& key : after) {
+    if (lists.contains(list_of(key.path))) continue;
     const auto same = std::find_if(before.begin(), before.end(),
                                    [&](const FormKey& k) { return k.path == key.path; });
-    if (same != before.end() && same->value == key.value) continue;
+    const bool kept = same != before.end() && same->value == key.value;
+    if (kept && !(other_defaults && key.path.starts_with("model."))) continue;
     out.push_back({key.path, key.type == KeyType::Path ? toml_string(key.value)
                                                        : value_text(key, key.value)});
   }
+  for (const std::string& list : lists) out.push_back(whole_list(to, list));
   return out;
 }
 
@@ -248,8 +308,10 @@ Json form_json(const Study& study, const Design& opened, const std::vector<Chang
   Json keys = Json::array();
   for (const FormKey& key : form_keys(study.design)) {
     if (key.path == "schema_version" || key.path == "title") continue;
-    const bool changed = std::any_of(changes.begin(), changes.end(),
-                                     [&](const Change& c) { return c.path == key.path; });
+    const std::string list = list_of(key.path);
+    const bool changed = std::any_of(changes.begin(), changes.end(), [&](const Change& c) {
+      return c.path == key.path || c.path == list;
+    });
     Json row{{"path", key.path},
              {"type", type_name(key.type)},
              {"value", key.value},

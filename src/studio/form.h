@@ -40,7 +40,15 @@ struct Change {
 Change checked_change(const std::vector<FormKey>& keys, const std::string& path,
                       const std::string& text);
 
-// The settings that make one design of another; a new kind of texture comes first.
+// "0", "12": as the items of a list are counted.
+bool is_number(const std::string& text);
+// surface.dielectric.0.thickness -> surface.dielectric; empty: no item of a list.
+std::string list_of(const std::string& path);
+// A list of sections set as a whole; of what an item has a law for, and the law is none, nothing.
+Change whole_list(const Design& design, const std::string& list);
+
+// The settings that make one design of another; a new kind of texture comes first. A list with
+// other items, in number or kind, is one change: what is not there has no key.
 std::vector<Change> changes_between(const Design& from, const Design& to);
 
 // The rows of the form. opened: the design that sliders take their ranges from.

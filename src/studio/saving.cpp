@@ -16,11 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_number(const std::string& text) {
-  return !text.empty() &&
-         std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
 // As it stands in a file: bare where TOML takes it so, else as a text.
 std::string literal(const std::string& text) {
   try {
@@ -100,16 +95,6 @@ std::size_t end_of_value(const std::string& text, std::size_t at) {
 bool is_header(const std::string& line) {
   const std::size_t first = line.find_first_not_of(" \t");
   return first != std::string::npos && line[first] == '[';
-}
-
-// surface.dielectric.0.thickness -> surface.dielectric; empty: no item of a list.
-std::string list_of(const std::string& path) {
-  std::string out;
-  for (const std::string& part : split(path, '.')) {
-    if (is_number(part)) return out;
-    out += (out.empty() ? "" : ".") + part;
-  }
-  return "";
 }
 
 // Without comment and spaces.
@@ -223,32 +208,20 @@ std::string without_members(const std::string& text, const std::string& section)
   return text_of(lines);
 }
 
-// A list of which one item changed, as a whole; of what an item has a law for, and the law is none,
-// nothing.
-Change whole_list(const Design& design, const std::string& list) {
-  std::vector<std::string> items;
-  std::string index, lawless;
-  const std::vector<FormKey> keys = form_keys(design);
-  for (const FormKey& key : keys) {
-    if (!key.path.starts_with(list + ".")) continue;
-    if (key.path.ends_with(".law") && key.value == "none")
-      lawless = key.path.substr(0, key.path.rfind('.') + 1);
-    if (!lawless.empty() && key.path.starts_with(lawless)) continue;
-    if (key.type == KeyType::Numbers && key.value.empty()) continue;
-    const std::string rest = key.path.substr(list.size() + 1), at = rest.substr(0, rest.find('.'));
-    const std::string member = rest.substr(rest.find('.') + 1) + " = ";
-    const bool text = key.type == KeyType::Text || key.type == KeyType::Choice ||
-                      (key.type == KeyType::Number && !key.unit.empty());
-    const std::string value = key.type == KeyType::Numbers
-                                  ? checked_change(keys, key.path, key.value).text
-                              : text ? "\"" + key.value + "\""
-                                     : key.value;
-    if (at != index) items.emplace_back();
-    items.back() += (at != index ? "" : ", ") + member + value;
-    index = at;
+// Without the sections that say a list, [[texture.parts]], or items of it.
+std::string without_list(const std::string& text, const std::string& list) {
+  const std::vector<std::string> lines = lines_of(text);
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::string line = bare(lines[i]);
+    if (line == "[[" + list + "]]" || line.starts_with("[" + list + ".") ||
+        line.starts_with("[[" + list + ".")) {
+      i = end_of_section(lines, i + 1) - 1;
+    } else {
+      out.push_back(lines[i]);
+    }
   }
-  for (std::string& item : items) item = "{ " + item + " }";
-  return {list, "[" + join_names(items, ", ") + "]"};
+  return text_of(out);
 }
 
 // The path of a base as a file in this folder names it.
@@ -294,6 +267,11 @@ std::string edited_toml(const std::string& text, const std::vector<Change>& chan
       root = parse_toml(out, "");
       node = node_at(root, change.path);
     }
+    if (const std::string rest = node ? without_list(out, change.path) : out; rest != out) {
+      out = rest;
+      root = parse_toml(out, "");
+      node = node_at(root, change.path);
+    }
     if (node && node->place.line > 0) {
       const std::size_t from = offset_of(out, node->place);
       out.replace(from, end_of_value(out, from) - from, literal(change.text));
@@ -305,15 +283,17 @@ std::string edited_toml(const std::string& text, const std::vector<Change>& chan
 }
 
 std::string saved_text(const Draft& draft, const fs::path& target) {
-  const fs::path folder = target.parent_path();
-  const Design design = study_of(draft).design;
-  if (fs::weakly_canonical(draft.file).parent_path() == fs::weakly_canonical(folder)) {
+  const fs::path folder = fs::weakly_canonical(target.parent_path());
+  const Study study = study_of(draft);
+  if (fs::weakly_canonical(draft.file).parent_path() == folder) {
     const std::string text = read_bytes(draft.file);
-    return edited_toml(text, local_changes(draft, design, folder, parse_toml(text, "")));
+    return edited_toml(text, local_changes(draft, study.design, folder, parse_toml(text, "")));
   }
-  const std::string head = fmt::format("schema_version = 1\nbase = \"{}\"\n",
-                                       base_name(draft.file, fs::weakly_canonical(folder)));
-  return edited_toml(head, local_changes(draft, design, folder, table_node()));
+  const std::string base = base_name(draft.file, folder);
+  // Readers take no base from above the folder of a file: the whole of it then.
+  if (base.starts_with("../")) return resolved_toml(study);
+  return edited_toml(fmt::format("schema_version = 1\nbase = \"{}\"\n", base),
+                     local_changes(draft, study.design, folder, table_node()));
 }
 
 }  // namespace papilla::studio

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "metrics/shown.h"
 #include "optim/pareto.h"
 #include "report/json.h"
 #include "search/records.h"
@@ -307,22 +308,36 @@ std::string SearchDesk::results() const {
 Draft SearchDesk::design_of(std::size_t evaluation) const {
   const std::lock_guard lock(mutex_);
   if (!present_ || evaluation >= found_.size()) throw InputError("the search has no such design");
-  return draft_of(present_->problem.space().design(found_[evaluation].unit));
+  return draft_of(present_->problem.space().design(found_[evaluation].unit),
+                  "a design of " + place() + "/front");
 }
 
 Draft SearchDesk::design_of(const std::string& front) const {
   const std::lock_guard lock(mutex_);
   const std::string file = place() + "/" + front + "/design.toml";
   if (!present_ || !folder_.has(file)) throw InputError("the search has no such design");
-  return draft_of(read_design(folder_.file(file)));
+  return draft_of(read_design(folder_.file(file)), file);
 }
 
-// The design as changes of what the search began with.
-Draft SearchDesk::draft_of(const Design& design) const {
+// The design as changes of what the search began with. Throws InputError where none make it, as of
+// a study that varies parts which the design has not: another design would be shown.
+Draft SearchDesk::draft_of(const Design& design, const std::string& instead) const {
   const Json origin = Json::parse(folder_.read(in_place("origin.json")));
   Draft out{origin.at("file").get<std::string>(), {}};
   out.changes = changes_between(study_of(out).design, design);
-  return out;
+  std::string why = "another design comes out";
+  try {
+    Design reached = study_of(out).design;
+    reached.title = design.title;
+    if (reached == design) return out;
+  } catch (const InputError& error) {
+    const Problem& first = error.problems().front();
+    why = first.key + ": " + first.message;
+  }
+  throw InputError(
+      fmt::format("no changes of {} make this design: {}; open {} itself, and save it under a name "
+                  "of its own",
+                  fs::path(out.file).filename().string(), why, instead));
 }
 
 Json SearchDesk::front_json() const {
@@ -339,8 +354,11 @@ Json SearchDesk::json() const {
   const std::vector<Variable>& varied = present_->study.variables;
   Json variables = Json::array(), objectives = Json::array(), points = Json::array();
   for (const Variable& v : varied) variables.push_back({{"path", v.path}, {"unit", v.unit}});
-  for (const StudyObjective& o : problem.objectives())
-    objectives.push_back({{"name", o.name}, {"maximise", o.maximise}});
+  for (const StudyObjective& o : problem.objectives()) {
+    const ShownUnit shown = shown_unit(o.expression);  // values are told in SI
+    objectives.push_back(
+        {{"name", o.name}, {"maximise", o.maximise}, {"scale", shown.scale}, {"unit", shown.unit}});
+  }
   std::vector<Evaluation> tried;
   for (const Found& f : found_) {
     tried.push_back({f.unit, f.judgement.outcome});

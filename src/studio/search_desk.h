@@ -102,7 +102,7 @@ class SearchDesk {
   void take_up(int number);
   std::string place() const;  // of the present search, below the folder
   std::string in_place(const char* name) const;
-  Draft draft_of(const Design& design) const;
+  Draft draft_of(const Design& design, const std::string& instead) const;
   void begin_reading();
   nlohmann::ordered_json front_json() const;
   void stop_child(std::unique_lock<std::mutex>& lock);

@@ -245,7 +245,13 @@ std::uint64_t Session::become(const Draft& draft) {
 std::uint64_t Session::reset(const std::string& path) {
   const std::lock_guard lock(mutex_);
   Draft next = draft_;
-  std::erase_if(next.changes, [&](const Change& c) { return c.path == path; });
+  // Of a list that was changed as a whole no item is in the file by itself.
+  const std::string list = list_of(path);
+  const bool whole = std::any_of(next.changes.begin(), next.changes.end(),
+                                 [&](const Change& c) { return c.path == list; });
+  std::erase_if(next.changes, [&](const Change& c) {
+    return c.path == path || (whole && (c.path == list || list_of(c.path) == list));
+  });
   return replace(std::move(next), 0);
 }
 
@@ -316,10 +322,12 @@ std::string step_text(const Draft& from, const Draft& to) {
     std::replace(out.begin(), out.end(), '_', ' ');
     return out;
   };
+  // Of sections, too long for a line.
+  const auto is_list = [](const std::string& text) { return text.starts_with("[{"); };
   std::vector<std::string> parts;
   for (const Change& c : to.changes) {
     if (std::find(from.changes.begin(), from.changes.end(), c) == from.changes.end())
-      parts.push_back(called(c.path) + " " + c.text);
+      parts.push_back(called(c.path) + " " + (is_list(c.text) ? "changed" : c.text));
   }
   for (const Change& c : from.changes) {
     if (std::none_of(to.changes.begin(), to.changes.end(),

@@ -415,12 +415,25 @@ TEST(DesignOfTheLibrary, NamesTheSizeOfHeightsThatHaveAnotherOne) {
   };
   EXPECT_EQ(said(6, true, {}), "size: the width of the map: 6000000 um is outside 0.1 to 10000 um");
   EXPECT_EQ(said(2e-6, true, {}), "");
-  EXPECT_TRUE(said(2e-6, false, {}).starts_with("size: the width of the map: 2 um is shorter"))
+  EXPECT_TRUE(said(2e-6, false, {})
+                  .starts_with("size: the patch that a map of this width leaves beside its seam: "
+                               "1.66 um is shorter"))
       << said(2e-6, false, {});
   EXPECT_TRUE(
       said(6e-6, false, {{"texture.patch", "2 um"}}).find("texture.patch: 2 um is shorter") !=
       std::string::npos)
       << said(6e-6, false, {{"texture.patch", "2 um"}});
+}
+
+// The outer tenth of a patch is blended into what lies beyond it, of which a map as large has none.
+TEST(DesignOfTheLibrary, TakesAsMuchOfHeightsAsLeavesRoomForTheirSeam) {
+  papilla::Heights wave{16, 16, 0.75e-6, 0.75e-6, {}};  // 12 um, its borders a step apart
+  for (int i = 0; i < 256; ++i) wave.z.push_back(1e-8 * std::sin(0.5 * (i % 16)));
+  const auto patch = [&](bool repeats) {
+    return papilla::Design::from_heights(wave, {}, repeats).number("texture.patch");
+  };
+  EXPECT_NEAR(patch(true), 12e-6, 1e-12);
+  EXPECT_NEAR(patch(false), 10e-6, 1e-12);
 }
 
 constexpr const char* kStudy =
@@ -446,6 +459,8 @@ TEST(StudyOfTheLibrary, SaysWhatMayChangeAndWhatIsWanted) {
   EXPECT_TRUE(study.objectives()[0].maximise);
   EXPECT_EQ(study.objectives()[1].name, "mean(friction)");
   EXPECT_FALSE(study.objectives()[1].maximise);
+  EXPECT_EQ(study.objectives()[0].unit + "|" + study.objectives()[1].unit, "|N");
+  EXPECT_EQ(papilla::si_unit(depth.unit), "m");
   EXPECT_EQ(study.violations(), 1u);
   EXPECT_NEAR(study.own_values()[0], 350e-9, 1e-15);
   EXPECT_NEAR(study.own_values()[1], 3e-6, 1e-15);
@@ -574,6 +589,13 @@ TEST(FilesOfTheLibrary, AreWrittenAndJudgedAgain) {
             }),
             "polarity: expected white-high or white-deep, got white");
   options.polarity = "white-deep";
+  EXPECT_EQ(refusal([&] {
+              papilla::ExportOptions alone = options;
+              alone.formats = {"gsf"};
+              papilla::export_files(design, folder, alone);
+            }),
+            "polarity is of tiff, mask, and no such file is written: name one in formats, or leave "
+            "polarity out");
   const papilla::Exported made = papilla::export_files(design, folder, options);
   ASSERT_EQ(made.files.size(), 2u);
   EXPECT_EQ(made.files[0], folder + "/heightmap.gsf");

@@ -123,6 +123,24 @@ TEST(Units, DimensionsHaveNames) {
     EXPECT_EQ(dimension_name(*find_unit(unit)), name) << unit;
 }
 
+TEST(Units, EveryUnitHasTheNameOfItsSiUnit) {
+  for (const auto& [unit, si] : {std::pair{"nm", "m"},
+                                 {"um3", "m3"},
+                                 {"deg", "rad"},
+                                 {"%", ""},
+                                 {"h", "s"},
+                                 {"kHz", "Hz"},
+                                 {"MPa", "Pa"},
+                                 {"mN/m", "N/m"},
+                                 {"V/um", "V/m"},
+                                 {"1/um3", "1/m3"},
+                                 {"um4", "m4"},
+                                 {"g/s3", "kg1 s-3"}}) {
+    EXPECT_EQ(si_name(*find_unit(unit)), si) << unit;
+    EXPECT_NEAR(find_unit(si).value_or(Unit{}).to_si, 1, 1e-15) << si;
+  }
+}
+
 TEST(Units, NumbersAreWrittenAsShortAsTheyReadBack) {
   for (const auto& [value, text] : {std::pair{0.0, "0"},
                                     {-0.25, "-0.25"},

@@ -244,8 +244,9 @@ TEST(DriveFile, ContactSpotsConductAsStifflyAsTheyPress) {
   const DriveResult one = spots({});
   // A rough contact is as stiff as its pressure over some half of its rms gap (Persson 2007): here
   // the finger's pressure over 0.1 to 10 um, whatever the rest of the network.
-  const Finger finger = read_design(kSamples + "flat.toml").finger;
   const DriveCase c = read_drive_case(kFingertip, {"gap.design=" + kSamples + "flat.toml"});
+  Finger finger = read_design(kSamples + "flat.toml").finger;
+  finger.load = c.touch.load;
   const double modulus = finger.skin.layer_modulus *
                          finger.skin.modulus_factor(c.gap.relative_humidity) /
                          (1 - square(finger.skin.layer_poisson));
@@ -259,6 +260,7 @@ TEST(DriveFile, ContactSpotsConductAsStifflyAsTheyPress) {
     for (const int more : {0, 1}) {
       const Design flat = read_design(kSamples + "flat.toml");
       Scene scene = scene_of(flat);
+      scene.finger.load = c.touch.load;
       scene.drive.amplitude = 0;
       scene.finger.macro.load_share /= more ? 1.05 : 1;
       gap[more] = mean_estimate(picture_patch(scene, flat.texture, fidelity_of(flat),
@@ -275,18 +277,29 @@ TEST(DriveFile, ContactSpotsConductAsStifflyAsTheyPress) {
               1 / (1 / one.network.gap.layer.resistance + 1 / one.spots), 1e-9 * one.spots);
 }
 
-TEST(DriveFile, TakesTheGapOfADesign) {
-  const DriveResult r = solve_drive(read_drive_case(
-      kFingertip, {"gap.design=" + kSamples + "a3h350.toml", "gap.skins=1", "drive.control=voltage",
-                   "drive.waveform=sine", "drive.amplitude=200 V", "drive.frequency=5 kHz"}));
+// The finger of the design, which has 0.2 N itself, presses with the load of the case.
+TEST(DriveFile, TakesTheGapOfADesignAtItsOwnLoad) {
+  const auto solved = [](const std::string& load) {
+    return solve_drive(read_drive_case(
+        kFingertip, {"gap.design=" + kSamples + "a3h350.toml", "gap.skins=1", "touch.load=" + load,
+                     "drive.control=voltage", "drive.waveform=sine", "drive.amplitude=200 V",
+                     "drive.frequency=5 kHz"}));
+  };
+  const DriveResult r = solved("0.2 N"), pressed = solved("1 N");
   EXPECT_GT(r.network.gap.distance, 50e-9);
   EXPECT_LT(r.network.gap.distance, 1e-6);
   EXPECT_GT(r.carrier.mean_force, 0);
   EXPECT_NEAR(r.area, 0.00728 * 45e-6 * (1 + 0.585 * 2 / 3), 1e-9);
+  EXPECT_NEAR(pressed.area, std::pow(5, 0.52) * r.area, 1e-6 * r.area);
+  EXPECT_LT(pressed.network.gap.distance, r.network.gap.distance);
+  EXPECT_LT(pressed.spots, r.spots);
   // A deeper, wider array opens the gap.
   const DriveResult deep = solve_drive(
       read_drive_case(kFingertip, {"gap.design=" + kSamples + "a4h600.toml", "gap.skins=1"}));
-  EXPECT_GT(deep.network.gap.distance, r.network.gap.distance);
+  EXPECT_GT(deep.network.gap.distance, pressed.network.gap.distance);
+  EXPECT_THROW(
+      read_drive_case(kFingertip, {"gap.design=" + kSamples + "a4h600.toml", "touch.load=0 N"}),
+      InputError);
 }
 
 TEST(DriveFile, DirectCurrentHoldsTheResistiveShare) {
@@ -380,6 +393,7 @@ TEST(DriveFile, TheNetworkOfADesignIsThatOfItsLayers) {
   double inverse = 0, inverse_square = 0, count = 0;
   for (int k = 0; k < 2; ++k) {
     Scene scene = scene_of(d);
+    scene.finger.load = c.touch.load;
     scene.drive.amplitude = 0;
     for (double g : picture_patch(scene, d.texture, fidelity_of(d), rh, k).fields.off.gap) {
       inverse += 1 / (std::max(g, 0.0) + film + skin);

@@ -131,6 +131,27 @@ TEST(MeanFieldByHand, ASkinThatYieldsIsSmoothedAtItsPressure) {
   }
 }
 
+// A sweep is a row of single cases: a skin that yields is flattened at each load by that load.
+TEST(MeanFieldByHand, EveryLoadOfASweepFlattensTheSkinByItsOwnPressure) {
+  MeanFieldCase c = own_case();
+  c.skin.hardness = 1e6;
+  c.sweep = {{60}, {0.3, 1, 2}, {}};
+  const MeanFieldResult r = solve_mean_field(c);
+  const std::vector<MeanFieldPoint> grid = mean_field_curves(c).grid;
+  ASSERT_EQ(r.load.size(), 3u);
+  ASSERT_EQ(grid.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    MeanFieldCase one = c;
+    one.touch.load = c.sweep.load[k];
+    const MeanFieldResult alone = solve_mean_field(one);
+    near(r.load[k].area_off, alone.point.area_off);
+    near(r.load[k].on.friction, alone.point.on.friction);
+    near(r.load[k].capacitance, alone.point.capacitance);
+    near(grid[k].on.friction, alone.voltage[0].on.friction);
+    near(grid[k].capacitance, alone.voltage[0].capacitance);
+  }
+}
+
 // The pull counts: a skin that carries the load alone may yield under a voltage.
 TEST(MeanFieldByHand, ASkinYieldsWhereLoadAndPullReachItsHardness) {
   MeanFieldCase c = own_case();

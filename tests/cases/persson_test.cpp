@@ -103,6 +103,7 @@ TEST(DropletCase, OfADesignHasTheWaterOfItsScene) {
   EXPECT_FALSE(c.how.corner_wicking);
   EXPECT_TRUE(c.how.rims);
   EXPECT_EQ(c.water.surface_tension, water.surface_tension);
+  EXPECT_FALSE(c.water.pressure_alone);
   EXPECT_NEAR(c.volume, water.volume_per_area(0.55) * c.gap.grid.area(), 1e-12 * c.volume);
   EXPECT_NEAR(c.volume / droplets_of_design(file, 0.15, 0, true, false).volume,
               water.volume_per_area(0.55) / water.volume_per_area(0.15), 1e-9);
@@ -111,15 +112,17 @@ TEST(DropletCase, OfADesignHasTheWaterOfItsScene) {
   EXPECT_TRUE(droplets_of_design(file, 0.55, 0, false, true).how.corner_wicking);
 }
 
-// Of flat glass, whose model pins rims: asked for or not.
-TEST(DropletCase, OfADesignHasTheRimsOfItsModel) {
+// Of flat glass, whose model pins rims, asked for or not, and has the paper's force of a bridge.
+TEST(DropletCase, OfADesignHasTheRimsAndTheForceOfItsModel) {
   Design design = read_design(std::string(PAPILLA_DESIGNS_DIR) + "/m3_samples/flat.toml");
   design.model.rim_pinning = true;
+  design.model.preset = Preset::M3;
   const std::string file = temporary("pinned.toml");
   write_design(file, design);
   const DropletCase c = droplets_of_design(file, 0.55, 0, false, false);
   EXPECT_TRUE(c.how.rim_pinning);
   EXPECT_FALSE(c.how.corner_wicking);
+  EXPECT_TRUE(c.water.pressure_alone);
 }
 
 // Both volumes and every placement once: what single placements give, averaged by hand.

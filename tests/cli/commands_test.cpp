@@ -13,6 +13,7 @@ namespace papilla::tests::commands_test {
 namespace {
 
 const std::string kSample = PAPILLA_SOURCE_DIR "/designs/m3_samples/a3h600.toml";
+const std::string kRough = PAPILLA_SOURCE_DIR "/designs/m3_samples/screen_rough.toml";
 const std::string kDraft = " --set accuracy.level=draft ";
 
 TEST(Program, HelpAndVersionSucceed) {
@@ -56,7 +57,8 @@ TEST(Program, LoadsModulesWhereTheyAreUsedAndNowhereElse) {
       std::filesystem::copy(file.path(), place.path() / file.path().filename());
   }
   const auto alone = [&](const std::string& arguments) {
-    return place.shell("LD_LIBRARY_PATH=. ./alone " + arguments);
+    return place.shell(
+        "PAPILLA_DESIGNS='" PAPILLA_SOURCE_DIR "/designs' LD_LIBRARY_PATH=. ./alone " + arguments);
   };
   const Outcome broken = alone("export " + kSample + " --format exr --pixels 64 --out broken");
   EXPECT_EQ(broken.status, 1);
@@ -796,7 +798,19 @@ TEST(Program, RefusesOptionsThatItWouldNotObey) {
            {"surface g.npy --as-is --level", "give one of them"},
            {"export " + kSample + " --format npy --repeat 3", "--repeat is of exr"},
            {"export " + kSample + " --format npy,exr --facet-error 2nm",
-            "--facet-error is of gds and oasis"},
+            "--facet-error is of gds, oasis, and no such file is written"},
+           {"export " + kSample + " --format gds --levels 3",
+            "--levels: the layout of holes, pillars and grooves has one layer; leave it out"},
+           {"export " + kSample + " --format gds --polarity white-deep",
+            "--polarity is of tiff, mask, and no such file is written"},
+           {"export " + kSample + " --format npy --tolerance '2 %'",
+            "--tolerance is of --verify: add that, or leave --tolerance out"},
+           {"export " + kSample + " --format gds --edge-rounding 20nm",
+            "--edge-rounding is of exr, tiff"},
+           {"export " + kRough + " --levels 3",  // whose layout is on request
+            "--levels is of gds, oasis, and no such file is written: name one in --format"},
+           {"export " + kRough + " --format gds --levels 3 --facet-error 5nm",
+            "--facet-error: the layout of this texture has no circles"},
            {"rank a.toml b.toml --base c.toml", "--base is for scans"},
            {"rank a.toml b.toml --parameters --no-parameters", "give one of them"},
            {"next lab --show --count 4", "--count is of a plan, and --show makes none"},

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 
@@ -57,6 +58,13 @@ TEST_F(Consumer, InstalledBinariesLookForLibrariesBesideThemselves) {
   for (const auto& entry : fs::recursive_directory_iterator(place_ + "/tree")) {
     if (entry.is_symlink() || !entry.is_regular_file() || !tests::is_elf(entry.path())) continue;
     EXPECT_EQ(tests::missing_protection(entry.path()), "") << entry.path();
+    // Nor does one name the builder's folder: of debugging information alone, the sources.
+    std::ifstream stream(entry.path(), std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(stream), {});
+    const bool debugged = bytes.find(".debug_info") != bytes.npos;
+    EXPECT_EQ(bytes.find(std::string(PAPILLA_SOURCE_DIR) + (debugged ? "/designs" : "/")),
+              bytes.npos)
+        << entry.path();
     ++seen;
   }
   EXPECT_GE(seen, 3);
@@ -68,7 +76,10 @@ TEST_F(Consumer, FindsThePackageAndHasTheBytesOfTheCommand) {
       0)
       << text("messages");
   ASSERT_EQ(run("cmake --build cmake"), 0) << text("output");
-  ASSERT_EQ(run(std::string("cmake/evaluate") + kChanges), 0) << text("messages");
+  // A program with the static library in it lies in no tree: it is told where the designs are.
+  const std::string told =
+      find("libpapilla.so").empty() ? "PAPILLA_DESIGNS=tree/share/papilla/designs " : "";
+  ASSERT_EQ(run(told + "cmake/evaluate" + kChanges), 0) << text("messages");
   const std::string library = text("output");
   ASSERT_EQ(run("tree/bin/papilla evaluate tree/share/papilla/designs/m3_samples/a3h350.toml "
                 "--set accuracy.level=draft --out evaluated"),
@@ -100,6 +111,11 @@ TEST_F(Consumer, FindsImagesAndDesignsInTheMovedTree) {
   EXPECT_TRUE(fs::exists(place_ + "/exported/heightmap.exr"));
   std::ofstream(place_ + "/based.toml") << "schema_version = 1\nbase = \"m3_samples/flat.toml\"\n";
   EXPECT_EQ(run("tree/bin/papilla explain based.toml"), 0) << text("messages");
+  // Without its designs it has none: those of the source that it was built from are not its own.
+  const std::string designs = place_ + "/tree/share/papilla/designs";
+  fs::rename(designs, place_ + "/elsewhere");
+  EXPECT_NE(run("tree/bin/papilla explain based.toml"), 0);
+  fs::rename(place_ + "/elsewhere", designs);
 }
 
 }  // namespace

@@ -148,6 +148,12 @@ TEST(Contradictions, OfTheDriveAreWhatItsSourceDoesNotHold) {
   EXPECT_EQ(with({.control = current, .waveform = Waveform::Dc, .current = 1e-3}),
             "drive.waveform: a constant current through a film that insulates has no end: give an "
             "alternating one\n");
+  EXPECT_EQ(with({.control = current, .waveform = Waveform::Square}), "");
+  EXPECT_EQ(with({.waveform = Waveform::Square, .amplitude = 200}), "");
+  EXPECT_EQ(with({.control = current, .waveform = Waveform::Square, .current = 1e-3}),
+            "drive.waveform: a square current makes a triangular voltage across film and gap, "
+            "which is not modelled: give a sine, or control = \"voltage\" with drive.amplitude "
+            "(`papilla solve drive` follows the circuit in time)\n");
   const std::string envelope =
       "drive.modulation_frequency: expected a frequency above 0 Hz for am\n";
   EXPECT_EQ(with({.waveform = Waveform::Am}), "");  // undriven

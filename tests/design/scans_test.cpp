@@ -3,6 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "base/constants.h"
+#include "geometry/io/files.h"
+#include "tests/temporary.h"
+
 namespace papilla::tests::scans_test {
 namespace {
 
@@ -106,6 +112,38 @@ TEST(DesignScans, OfAMapThatIsRepeatedSayThePatchThatItMakes) {
   EXPECT_EQ(text(scan),
             "a.npy: taken as it is, neither levelled nor mended; repeated, it makes the simulated "
             "patch of 12 x 12 um");
+}
+
+// A wave of 16 um on 20 um: as high at one border as it is at most, and higher by the plane of 29
+// nm that falls towards it and is taken away.
+TEST(DesignScans, SayTheStepOfAPatchThatLeavesNoRoomForItsSeam) {
+  Heightmap wave{{200, 200, 20e-6, 20e-6}, {}};
+  for (int i = 0; i < 200 * 200; ++i)
+    wave.z.push_back(50e-9 * std::sin(2 * kPi * (0.1e-6 * (i % 200)) / 16e-6));
+  Measured3d map;
+  map.file = temporary("wave.gsf");
+  write_gsf(map.file, wave, {});
+  const auto said = [&](double patch, double at_x = 0) {
+    map.patch = patch, map.at_x = at_x;
+    Design design;
+    design.texture = Texture{map};
+    return text(scans_of(design).at(0));
+  };
+  const std::string whole = said(20e-6), step =
+                                             "the patch leaves no room for the tenth that is "
+                                             "blended: at its border stands a step of ";
+  ASSERT_NE(whole.find(step), std::string::npos) << whole;
+  EXPECT_NEAR(std::stod(whole.substr(whole.find(step) + step.size())), 50 + 29, 2) << whole;
+  EXPECT_NE(whole.find("take texture.patch = 16.66 um or less, in the middle of the map"),
+            std::string::npos)
+      << whole;
+  const std::string middle = said(16.66e-6);
+  EXPECT_EQ(middle.find(step), std::string::npos) << middle;
+  EXPECT_NE(middle.find("blended along two borders"), std::string::npos) << middle;
+  // At the border of the map nothing lies below the patch.
+  const std::string corner = said(10e-6, -5e-6);
+  EXPECT_NE(corner.find(step), std::string::npos) << corner;
+  EXPECT_EQ(corner.find("blended along two borders"), std::string::npos) << corner;
 }
 
 // On a patch that is shorter than the waves of skin friction is that of another finger.

@@ -5,6 +5,8 @@
 
 #include "base/constants.h"
 #include "physics/electrostatics/field.h"
+#include "physics/electrostatics/full_field.h"
+#include "physics/electrostatics/pull.h"
 
 namespace papilla::tests::saturation_test {
 namespace {
@@ -65,6 +67,42 @@ TEST(Saturation, ARoughGapFollowsTheIntegralOverItsGaps) {
   EXPECT_NEAR(exponent(gap, v), std::log(exact(v * step) / exact(v / step)) / (2 * std::log(step)),
               1e-3);
   EXPECT_LT(exponent(gap, v), 1.2);
+}
+
+// Bare contact, a gap that saturates and one that does not, at 100 V over a film of 0.4 um that
+// holds 100 V/um in the air.
+TEST(Saturation, WhatTheGapCannotTakeStandsOnTheFilm) {
+  const Grid grid{8, 8, 10e-6, 10e-6};
+  FieldProblem p = problem(100);
+  p.skin_layer = 50e-9;
+  for (const auto& [gap, film] : {std::pair{0.0, 95.0}, {0.25e-6, 70.0}, {0.75e-6, 100 / 3.0}}) {
+    const Gap plane{grid, std::vector<double>(grid.size(), gap)};
+    const double expected = film / 20e-6;  // [V/m]
+    for (const FieldSolution& s :
+         {solve_local_field(plane, nullptr, {}, p), solve_spread_field(plane, nullptr, {}, p, 1e-6),
+          solve_full_field(plane, nullptr, {}, p)}) {
+      ASSERT_TRUE(s.ok) << s.reason;
+      EXPECT_NEAR(s.peak_oxide_field, expected, 2e-3 * expected) << gap;
+      EXPECT_LE(s.peak_air_field, kHeld * (1 + 1e-9)) << gap;
+    }
+  }
+}
+
+// All of the patch: the skin's layer below it takes 100 V/um, 20 nm of it 2 V.
+TEST(Saturation, UnderWaterWhatTheSkinCannotTakeStandsOnTheFilm) {
+  const Grid grid{8, 8, 10e-6, 10e-6};
+  FieldProblem p = problem(100);
+  p.water_skin_layer = 20e-9;
+  const Gap plane{grid, std::vector<double>(grid.size(), 100e-9)};
+  const AirColumns columns{plane.value, {}};
+  const std::vector<double> bridged(grid.size(), 0);
+  const FieldSolution s = pull(plane, nullptr, p, columns, {.open = bridged, .potential = {}});
+  EXPECT_NEAR(s.peak_oxide_field, 98 / 20e-6, 1e-6 * s.peak_oxide_field);
+  // By the potential that the rule with spreading flux gives the water, of its own divider.
+  const std::vector<double> potential(grid.size(), 20.0 / 420);
+  const FieldSolution by_water =
+      pull(plane, nullptr, p, columns, {.open = bridged, .potential = potential});
+  EXPECT_NEAR(by_water.peak_oxide_field, 98 / 20e-6, 1e-6 * s.peak_oxide_field);
 }
 
 }  // namespace

@@ -127,6 +127,29 @@ TEST(Steps, OfTheFingersParametersAreInEveryNumberAndInTheCost) {
     EXPECT_NEAR((r.points[0].*quantity.value).parts.parameters.value(),
                 step_error(*step_samples(by_hand, value)), 1e-12);
   }
+  const Measured& known = r.points[0].modulation;
+  for (const ParameterStep& step : r.parameters.steps) {
+    for (const Resampled& run : {step.up, step.down})
+      EXPECT_NEAR(run.points[0].felt_error.value(), known.se() / known.value, 1e-12);
+  }
+}
+
+// A modulation of nothing has no error in proportion; no other number of the run changes.
+TEST(Steps, WhatIsFeltOfARunTakesTheErrorOfItsResponse) {
+  const auto points = [](double first, double second, double error) {
+    std::vector<ResponsePoint> out(2);
+    out[0].modulation = {first, {.sampling = error}};
+    out[1].modulation = {second, {.sampling = error}};
+    return out;
+  };
+  Resampled run{points(0.19, 0.1, 0.006), {points(0.18, 0.1, 0.006)}};
+  const Resampled before = run;
+  take_felt_errors(run, points(-0.25, 0, 0.04));
+  EXPECT_NEAR(run.points[0].felt_error.value(), 0.16, 1e-12);
+  EXPECT_NEAR(run.without[0][0].felt_error.value(), 0.16, 1e-12);
+  EXPECT_FALSE(run.points[1].felt_error);
+  run.points[0].felt_error.reset();
+  EXPECT_EQ(run.points, before.points);
 }
 
 // What the file asks for, what the options ask for instead of it.

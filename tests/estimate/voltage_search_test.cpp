@@ -6,6 +6,7 @@
 
 #include "estimate/voltage.h"
 #include "forward/undriven.h"
+#include "numerics/statistics.h"
 #include "tests/support/one_pass.h"
 
 namespace papilla::tests::voltage_search_test {
@@ -36,7 +37,8 @@ std::vector<VoltageAnswer> voltages(const Scene& scene, const std::vector<double
 double modulation(const Scene& scene, double amplitude, Estimator estimator = Estimator::Load) {
   Fidelity f = tiny();
   f.estimator = estimator;
-  return UndrivenPatches(scene, Texture{}, f).drive(amplitude, estimator).modulation.value;
+  const Resampled there = UndrivenPatches(scene, Texture{}, f).drive(amplitude, estimator);
+  return there.points.front().modulation.value;
 }
 
 TEST(VoltageSearch, OfTheDesignsOwnModulationIsItsAmplitudeAtOnce) {
@@ -134,7 +136,7 @@ TEST(VoltageSearch, EndsNextToWhereTheGapPullsIn) {
   scene.surface.dielectric[0].strength = 1e12;
   scene.surface.dielectric[0].thickness = 20e-9;
   const auto driven = [&](double v) {
-    return UndrivenPatches(scene, Texture{}, tiny()).drive(v, Estimator::Load);
+    return UndrivenPatches(scene, Texture{}, tiny()).drive(v, Estimator::Load).points.front();
   };
   const VoltageAnswer a = voltages(scene, {1e3}).at(0);
   EXPECT_EQ(a.end, VoltageEnd::ModelEnds);
@@ -159,6 +161,84 @@ TEST(VoltageSearch, ByAreasBeginsWhereTheLoadLawEnds) {
   EXPECT_LE(area.evaluations, load.evaluations + 5);
   EXPECT_NEAR(modulation(scene, area.amplitude.value, Estimator::Area) / target, 1, 5e-3);
   EXPECT_EQ(area.modulation, modulation(scene, area.amplitude.value, Estimator::Area));
+}
+
+// Ten seconds of touch make skin so soft that the law alone has more contact than the patch at some
+// 200 V: areas are sought up to what the film holds all the same, and nothing below is called its
+// breakdown.
+TEST(VoltageSearch, ByAreasGoesOnWhereTheLoadLawIsFull) {
+  Scene scene = scene_at(60);
+  scene.environment.relative_humidity = {0.15};
+  scene.finger.touch_time = 10;
+  Fidelity f = tiny();
+  const VoltageAnswer load = voltages(scene, {5}, f).at(0);
+  ASSERT_EQ(load.end, VoltageEnd::ModelEnds);
+  ASSERT_EQ(load.model.trouble, Trouble::FullContact);
+  f.estimator = Estimator::Area;
+  const VoltageAnswer area = voltages(scene, {5}, f).at(0);
+  EXPECT_TRUE(area.end == VoltageEnd::ModelEnds || area.limit == 500) << text(area);
+  EXPECT_GT(area.evaluations, load.evaluations);
+}
+
+// Driven at the amplitude that is stated without a skin, the other skins have the modulation that
+// is asked for, but for what a slope leaves of what they are off by at the amplitude of all. The
+// sampling error is the jackknife of these. Eq. metrics.6
+TEST(VoltageSearch, SaysWhatTheAmplitudeIsWithoutEachSkin) {
+  const Scene scene = scene_at(60);
+  Fidelity f = tiny();
+  f.skins = 4;
+  for (const Estimator estimator : {Estimator::Load, Estimator::Area}) {
+    f.estimator = estimator;
+    const UndrivenPatches patches(scene, Texture{}, f);
+    const double target = patches.drive(80, estimator).points.front().modulation.value;
+    const VoltageAnswer a = voltages(scene, {target}, f).at(0);
+    ASSERT_TRUE(a.reached());
+    ASSERT_EQ(a.without.size(), 4u);
+    const auto others = [&](std::size_t k, double amplitude) {
+      return patches.drive(amplitude, estimator).without.at(k).front().modulation.value;
+    };
+    for (std::size_t k = 0; k < a.without.size(); ++k) {
+      const double off = std::abs(others(k, a.amplitude.value) - target);
+      EXPECT_NEAR(others(k, a.without[k]), target, 0.3 * off + 5e-3 * target) << k;
+    }
+    EXPECT_NEAR(a.amplitude.parts.sampling,
+                mean_estimate(jackknife_samples(a.amplitude.value, a.without)).se,
+                1e-9 * a.amplitude.value);
+    EXPECT_GT(a.amplitude.parts.sampling, 0);
+  }
+  f.skins = 1;
+  f.estimator = Estimator::Load;
+  EXPECT_TRUE(voltages(scene, {0.1}, f).at(0).without.empty());
+}
+
+// A design without a drive has no field of its own; its amplitude has.
+TEST(VoltageSearch, HasTheFieldOfItsAmplitude) {
+  Fidelity f = tiny();
+  f.field_skins = 1;
+  Scene scene = scene_at(0);
+  scene.environment.relative_humidity = {0.6};
+  const double target = 0.5 * modulation(scene, 100);
+  Response r = evaluate(scene, Texture{}, f);
+  ASSERT_FALSE(r.points[0].field_error);
+  add_voltages(r, scene, Texture{}, f, std::vector<double>{target});
+  const VoltageAnswer& a = r.points[0].voltages.at(0);
+  ASSERT_TRUE(a.reached());
+  EXPECT_TRUE(a.field_error);
+  EXPECT_NE(a.field_correction, 1);
+}
+
+// Nothing is solved of what no field reaches.
+TEST(VoltageSearch, OfWhatDoesNotConductSaysThatNoFieldReachesIt) {
+  Scene scene = scene_at(0);
+  Response r = evaluate(scene, Texture{}, tiny());
+  scene.touch.conducts = false;
+  add_voltages(r, scene, Texture{}, tiny(), std::vector<double>{0.1, 0.5});
+  ASSERT_EQ(r.points[0].voltages.size(), 2u);
+  for (const VoltageAnswer& a : r.points[0].voltages) {
+    EXPECT_EQ(text(a), "what touches does not conduct: no field reaches it");
+    EXPECT_EQ(a.evaluations, 0);
+  }
+  EXPECT_EQ(r.points[0].voltages[1].target, 0.5);
 }
 
 }  // namespace

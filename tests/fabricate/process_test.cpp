@@ -167,6 +167,32 @@ TEST(Process, RefusesRimsThatLeaveNothingOfTheLand) {
             "less than 900 nm");
 }
 
+// 6025.3 and 2008.4 nm of a master: rounded alone, 6025 and 2008, they slip by a nanometre a
+// period.
+TEST(Process, PeriodsOfAStackAreDrawnAsWholeFractionsOfTheLongest) {
+  Process process;
+  process.shrinkage = 0.0042;
+  const auto drawn = [&](const std::vector<double>& periods) {
+    std::vector<Texture> arrays;
+    for (const double period : periods) {
+      HoleArray array = holes();
+      array.period = period, array.diameter = 0.3 * period, array.depth = 0.1 * period;
+      arrays.emplace_back(Texture{array});
+    }
+    std::vector<double> out;
+    for (const MaskedArray& array : masked(arrays, process))
+      out.push_back(std::round(1e13 * array.mask.period) / 1e4);  // [nm]
+    return out;
+  };
+  EXPECT_EQ(drawn({6e-6}), (std::vector<double>{6025}));
+  EXPECT_EQ(drawn({6e-6, 2e-6}), (std::vector<double>{6024, 2008}));
+  EXPECT_EQ(drawn({2e-6, 6e-6, 3e-6}), (std::vector<double>{2008, 6024, 3012}));
+  EXPECT_NE(refusal_of([&] {
+              drawn({6e-6, 6e-6 / 7, 6e-6 / 11, 6e-6 / 13});
+            }).find("no common grid of whole nanometres within 1 % of 6 um"),
+            std::string::npos);
+}
+
 TEST(Compensation, RefusesFeaturesThatNoMaskMakes) {
   HoleArray tiny = holes();
   tiny.diameter = 0.3e-6;

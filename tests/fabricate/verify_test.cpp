@@ -176,6 +176,36 @@ TEST(Verify, NamesTheFirstLineInWhichADesignIsAnother) {
                                      "\"250 nm\"`, there `depth = \"200 nm\"`"});
 }
 
+// As on another machine, where the file is not.
+TEST(Verify, NeedsNoBeliefOfTheFinger) {
+  const Workplace place;
+  Study study;
+  study.design.finger.belief = (place.path() / "elsewhere.toml").string();
+  ExportOptions options;
+  options.pixels = 32, options.formats = {"npy"};
+  const std::string folder = (place.path() / "f").string();
+  export_with_record(study, options, folder);
+  EXPECT_EQ(read_bytes(folder + "/" + kRecordName).find("elsewhere"), std::string::npos);
+  for (const FileVerdict& file : verify_folder(folder))
+    EXPECT_EQ(file.state, FileState::Sound) << file.path;
+}
+
+// The design beside the files of a run keeps its belief, which is no other design.
+TEST(Verify, TakesADesignWithItsBeliefForTheOneOfTheRecord) {
+  const Workplace place;
+  const Study study = read_study(PAPILLA_DESIGNS_DIR "/m3_samples/a3h600.toml");
+  ASSERT_NE(study.design.finger.belief, "");
+  const std::string path = (place.path() / "design.toml").string();
+  write_design(path, study.design);
+  Export made;
+  made.files = {{kDesignFormat, path}};
+  ExportRecord record = record_of(study, {}, made);
+  EXPECT_EQ(record.design.finger.belief, "");
+  EXPECT_EQ(verify_files(record, {}).at(0).state, FileState::Sound);
+  record.design.finger.belief = study.design.finger.belief;  // as earlier versions wrote it
+  EXPECT_EQ(verify_files(record, {}).at(0).state, FileState::Sound);
+}
+
 TEST(Verify, RefusesAFolderWithoutARecord) {
   const Workplace place;
   EXPECT_THROW(verify_folder(place.path().string()), InputError);
@@ -297,6 +327,36 @@ TEST(Verify, TheMapOfALatticeIsJudgedOnThePatchOfItsDesign) {
   std::get<HoleArray>(study.design.texture.kind).period = 6e-6;
   write_gsf(file, generate(study.design.texture, {120, 180, 12e-6, 18e-6}), {});
   EXPECT_LT(verify_export(study, file, 0.05).loss, 0.01);
+}
+
+// Grooves of 2 um in 6 um and of 0.8 um in 3 um: each mask has walls of 2.2 um at least, and 0.1 um
+// are left between a groove of one and its neighbour of the other. That is no fault of the file,
+// and is said. The file is felt on the patch of the design, though a stack has no relief of its
+// own.
+TEST(Verify, NotesWhatTwoPartsOfAStackLeaveBetweenThem) {
+  Study study;
+  study.design.environment.relative_humidity = {0.35};
+  Stack both;
+  both.parts = {
+      Texture{Grating{.period = 6e-6, .width = 2e-6, .depth = 200e-9, .wall_angle = kPi / 2}},
+      Texture{Grating{.period = 3e-6, .width = 0.8e-6, .depth = 200e-9, .wall_angle = kPi / 2}}};
+  study.design.texture = Texture{both};
+  study.constraints = {read_constraint("min_wall", 1e-6)};
+  ExportOptions options;
+  options.formats = {"gsf"};
+  options.size = 12e-6;
+  options.pixels = 480;
+  const std::string folder = temporary("verify_stack");
+  const std::string file = export_design(study.design, options, folder).files.at(0).path;
+  const Verification found = verify_export(study, file, 0.05);
+  EXPECT_TRUE(found.faults.empty()) << found.faults.front();
+  EXPECT_LT(found.pixels.min_wall, 0.2e-6);
+  ASSERT_EQ(found.notes.size(), 1u);
+  EXPECT_TRUE(found.notes[0].starts_with("min_wall of the file is 0.")) << found.notes[0];
+  EXPECT_NE(found.notes[0].find("each part of the stack alone keeps the limit"), std::string::npos)
+      << found.notes[0];
+  study.constraints = {read_constraint("min_wall", 2.5e-6)};  // more than a part has
+  EXPECT_EQ(verify_export(study, file, 0.05).faults.size(), 1u);
 }
 
 }  // namespace

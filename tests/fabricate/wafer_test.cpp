@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "base/constants.h"
 #include "base/error.h"
@@ -323,6 +324,47 @@ TEST(Wafer, AStackOfArraysTakesAMaskForEachOfThem) {
   ASSERT_EQ(drawing.levels.size(), 2u);
   EXPECT_NEAR(drawing.levels[0].etch, 300e-9, 1e-15);
   EXPECT_NEAR(drawing.levels[1].etch, 100e-9, 1e-15);
+}
+
+// Over a pad that holds no whole number of the longer period, and in a master whose periods are on
+// no whole nanometre: of both masks the arrays begin at one corner and end at one.
+TEST(Wafer, TheMasksOfAStackAreInRegisterOverAllOfThePad) {
+  for (const char* sections : {"[wafer]\npad_width = \"10 mm\"\npad_height = \"10 mm\"\n",
+                               "[process]\nshrinkage = \"0.42 %\"\n"}) {
+    for (const char* lattice : {"square", "hexagonal"}) {
+      const Workplace place;
+      const auto part = [&](const char* measures) {
+        return std::string("[[texture.parts]]\ntype = \"hole_array\"\nlattice = \"") + lattice +
+               "\"\n" + measures;
+      };
+      place.write("two.toml",
+                  "schema_version = 1\n[texture]\ntype = \"stack\"\n" +
+                      part("period = \"6 um\"\ndiameter = \"3 um\"\ndepth = \"350 nm\"\n") +
+                      part("period = \"2 um\"\ndiameter = \"1 um\"\ndepth = \"100 nm\"\n") +
+                      "[finger]\nbase = \"fingers/reference.toml\"\n");
+      place.write("list.toml", std::string("schema_version = 1\n") + sections +
+                                   "[[design]]\nname = \"T\"\nfile = \"two.toml\"\n");
+      const WaferDrawing drawing = draw_wafer(plan_wafer((place.path() / "list.toml").string()));
+      std::vector<LayoutReference> first;
+      std::vector<double> ends;  // of all rows [nm]
+      for (const LayoutCell& cell : drawing.layout.cells) {
+        if (cell.name != "DESIGN_T_1" && cell.name != "DESIGN_T_2") continue;
+        first.push_back(cell.references.front());
+        const LayoutReference& last = cell.references.back();
+        ends.push_back(last.y + static_cast<double>(last.rows * last.step_y));
+      }
+      ASSERT_EQ(first.size(), 2u);
+      const auto& [coarse, fine] = std::tie(first[0], first[1]);
+      EXPECT_EQ(coarse.x, fine.x) << sections << lattice;
+      EXPECT_EQ(coarse.y, fine.y) << sections << lattice;
+      EXPECT_EQ(3 * coarse.columns, fine.columns) << sections << lattice;
+      EXPECT_EQ(coarse.step_x, 3 * fine.step_x) << sections << lattice;
+      if (std::string(lattice) == "square") {
+        EXPECT_EQ(coarse.step_y, 3 * fine.step_y) << sections;
+        EXPECT_EQ(ends[0], ends[1]) << sections;
+      }
+    }
+  }
 }
 
 TEST(Wafer, TheManifestHasALineForEachFieldAndCondition) {

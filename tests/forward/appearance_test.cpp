@@ -95,6 +95,36 @@ TEST(Appearance, BetweenBothItIsRigorousOrRefusedWithTheBand) {
             std::string::npos);
 }
 
+// A plate that scatters does so once: of a lattice below the finest period, too, whose disorder is
+// that of its layer at every wavelength.
+TEST(Appearance, OfAFineLatticeCountsInnerHazeOnceAndItsDisorderEverywhere) {
+  Grating grooves;
+  grooves.period = 200e-9, grooves.width = 120e-9, grooves.depth = 90e-9;
+  grooves.wall_angle = kPi / 2, grooves.edge_radius = 0;
+  const Texture texture{grooves};
+  View view;
+  view.lattices = LatticeTheory::Rigorous;
+  view.displacement = 0, view.diameter_scatter = 0;
+  const Optics perfect = appearance(texture, glass_of(kIndex), view);
+  ASSERT_EQ(perfect.regime, OpticsRegime::Rigorous);
+  EXPECT_NEAR(perfect.haze, 0, 1e-9);
+  view.displacement = 10e-9, view.diameter_scatter = 0.1, view.inner_haze = 0.3;
+  const Optics seen = appearance(texture, glass_of(kIndex), view);
+  const Optics layer =
+      effective_medium(facts(texture).open_share.value(), 90e-9, Features::Lines, {kIndex, 1},
+                       {120e-9, 10e-9, 0.1}, {visible_wavelengths(), {0}});
+  EXPECT_GT(layer.haze, 1e-4);
+  EXPECT_NEAR(seen.haze, 1 - 0.7 * (1 - layer.haze), 1e-9);
+  for (std::size_t k = 0; k < seen.spectrum.size(); ++k) {
+    const double kept = 1 - layer.spectrum[k].haze;
+    EXPECT_NEAR(seen.spectrum[k].haze, 1 - 0.7 * kept, 1e-9) << k;
+    EXPECT_NEAR(seen.spectrum[k].specular, kept, 1e-9) << k;
+    EXPECT_NEAR(seen.spectrum[k].transmitted, 0.7 * kept * perfect.spectrum[k].transmitted, 1e-9)
+        << k;
+  }
+  EXPECT_LT(seen.transmittance, 0.7 * perfect.transmittance);
+}
+
 TEST(Appearance, WarnsWhereTheScreenIsRough) {
   const auto warning = [](double diameter, double depth) {
     HoleArray holes;

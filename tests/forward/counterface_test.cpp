@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "forward/electric_path.h"
 #include "forward/forward.h"
 #include "forward/patch_setup.h"
 #include "forward/scene_terms.h"
@@ -66,6 +67,28 @@ TEST(PinCounterface, GrossContactGrowsWithTheLoadAsHertzHasIt) {
   pin.radius = 0;
   pin.area = 2e-6;
   EXPECT_EQ(touched_by(pin, dry_glass()).finger.macro.gross_area(3, 0.9), 2e-6);
+}
+
+// Parallel plates: a smooth face on the film, whatever its pressure; one of waves within patches
+// stands off by less than their rms height.
+TEST(PinCounterface, ACurrentTakesTheVoltageOfItsFaceOnTheFilm) {
+  Pin pin = polymer();
+  pin.face = PinFace::Flat;
+  pin.radius = 0, pin.area = 1e-6;
+  Scene scene = dry_glass();
+  scene.drive.control = DriveControl::Current;
+  scene.drive.current = 0.5e-3;
+  const double film = scene.surface.equivalent_thickness();
+  const double plates =
+      0.5e-3 * film / (2 * kPi * scene.drive.frequency * kVacuumPermittivity * pin.area);
+  const auto volts = [&] { return source_voltage(touched_by(pin, scene), 0.5).peak; };
+  EXPECT_NEAR(volts(), plates, 1e-3 * plates);
+  pin.roughness.map = "face.gsf";  // no spectrum: said by the plan
+  EXPECT_NEAR(volts(), plates, 1e-3 * plates);
+  pin.roughness = {
+      .rms = 60e-9, .longest = 12e-6, .roll_off = 3e-6, .hurst = 0.8, .cutoff = 0.4e-6};
+  EXPECT_GT(volts(), plates);
+  EXPECT_LT(volts(), plates * (film + 5 * 60e-9) / film);
 }
 
 TEST(PinCounterface, ARigidBaseLeavesThePinsOwnModulus) {

@@ -55,7 +55,7 @@ TEST(UndrivenPatchesLaws, AnswerAsARunOfTheirVoltage) {
     const UndrivenPatches patches(scene, texture, f);  // whatever its voltage
     for (const double amplitude : {60.0, 140.0}) {
       scene.drive.amplitude = amplitude;
-      expect_same_points(patches.drive(amplitude, Estimator::Load),
+      expect_same_points(patches.drive(amplitude, Estimator::Load).points[0],
                          evaluate(scene, texture, f).points[0], 1e-9);
     }
     scene.drive.amplitude = 0;
@@ -75,7 +75,7 @@ TEST(UndrivenPatchesLaws, AreCorrectedAsAtOneAmplitude) {
     Scene measured = scene;
     measured.drive.amplitude = amplitude > 0 ? amplitude : 1;
     const FieldRatio ratio = field_ratios(measured, Texture{}, f)[0];
-    const ResponsePoint p = patches.drive(120, Estimator::Load);
+    const ResponsePoint p = patches.drive(120, Estimator::Load).points[0];
     EXPECT_EQ(p.field_correction, ratio.correction);
     EXPECT_NE(ratio.correction, 1);
     EXPECT_EQ(p.field_error, ratio.error);
@@ -84,7 +84,7 @@ TEST(UndrivenPatchesLaws, AreCorrectedAsAtOneAmplitude) {
     EXPECT_EQ(patches.corrected_at(), measured.drive.amplitude);
     patches.correct_at(120);
     measured.drive.amplitude = 120;
-    EXPECT_EQ(patches.drive(120, Estimator::Load).field_correction,
+    EXPECT_EQ(patches.drive(120, Estimator::Load).points[0].field_correction,
               field_ratios(measured, Texture{}, f)[0].correction);
   }
   f.field_skins = 0;
@@ -98,10 +98,10 @@ TEST(UndrivenPatchesLaws, ByAreasOrTheLoadLawAsAsked) {
   const UndrivenPatches patches(scene, Texture{}, small(Estimator::Area));
   scene.drive.control = DriveControl::Voltage;
   scene.drive.amplitude = 120;
-  expect_same_points(patches.drive(120, Estimator::Area),
+  expect_same_points(patches.drive(120, Estimator::Area).points[0],
                      evaluate(scene, Texture{}, small(Estimator::Area)).points[0], 1e-3);
   // The load law on patches that have their capillary state solved as well.
-  const ResponsePoint law = patches.drive(120, Estimator::Load);
+  const ResponsePoint law = patches.drive(120, Estimator::Load).points[0];
   const ResponsePoint run = evaluate(scene, Texture{}, small(Estimator::Load)).points[0];
   EXPECT_NEAR(law.modulation.value, run.modulation.value, 1e-9);
   EXPECT_NEAR(law.area_fraction_on.value, run.area_fraction_on.value, 1e-9);

@@ -13,10 +13,14 @@
 #include "forward/electric_path.h"
 #include "forward/forward.h"
 #include "forward/patch_setup.h"
+#include "forward/scene_terms.h"
+#include "geometry/io/files.h"
+#include "geometry/roughness.h"
 #include "physics/capillary/facts.h"
 #include "physics/contact/facts.h"
 #include "physics/electrostatics/full_field.h"
 #include "physics/electrostatics/rules.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests::plan_pieces_test {
 namespace {
@@ -341,6 +345,41 @@ TEST(PlanPieces, WaterOnANearlyWettingSurfaceIsWarnedOf) {
   EXPECT_FALSE(warned(10.5, WaterModel::Droplets));
   EXPECT_FALSE(warned(2, WaterModel::Threshold));
   EXPECT_FALSE(warned(2, WaterModel::Droplets, true));
+}
+
+// Sebum that keeps all water off leaves none to model: as the evaluation of that finger does.
+TEST(PlanPieces, AreThoseOfTheFingerInItsState) {
+  Scene natural;
+  natural.finger.state = FingerState::Natural;
+  natural.finger.natural.water_factor = 0;
+  const Fidelity f = fidelity_level("search");
+  EXPECT_FALSE(make_plan(natural, Texture{}, f).water);
+  EXPECT_EQ(make_plan(natural, Texture{}, f), make_plan(in_its_state(natural), Texture{}, f));
+  natural.finger.state = FingerState::Clean;
+  EXPECT_TRUE(make_plan(natural, Texture{}, f).water);
+}
+
+TEST(PlanPieces, OfAMappedPinUnderCurrentTheRoughnessIsSaidToBeLeftOut) {
+  const std::string file = temporary("face.gsf");
+  write_gsf(file, random_surface({100e-9, 3e-6, 0.8, 200e-9}, {256, 256, 24e-6, 24e-6}, 7, 0), {});
+  Scene scene;
+  scene.finger.skin.map = file;
+  scene.finger.skin.rms = scene.finger.macro.ridge_rms = 0;
+  const auto warned = [&] {
+    const Plan plan = make_plan(scene, Texture{}, fidelity_level("search"));
+    return std::any_of(plan.warnings.begin(), plan.warnings.end(), [](const std::string& said) {
+      return said.find("the roughness of the map is not in the impedance") != std::string::npos;
+    });
+  };
+  scene.drive.amplitude = 100;
+  EXPECT_FALSE(warned());
+  scene.drive.amplitude = 0;
+  scene.drive.control = DriveControl::Current;
+  EXPECT_FALSE(warned());  // undriven
+  scene.drive.current = 0.1e-3;
+  EXPECT_TRUE(warned());
+  scene.finger.macro.ridge_rms = 1e-6;  // as of skin: its spectrum stands for the map
+  EXPECT_FALSE(warned());
 }
 
 TEST(PlanPieces, WarningsAreSaidInWhole) {

@@ -237,6 +237,25 @@ TEST(Point, FrictionByACoefficientIsOffAsTheLoadIs) {
               1e-12);
 }
 
+// Load times a coefficient is given: of the contact only attractions and retention stand.
+TEST(Point, TheContactsErrorIsOfTheFrictionThatACoefficientLeavesToIt) {
+  Case c;
+  c.scene.touch.coefficient = 0.3;
+  const double relative = contact::contact_error(3e-4);
+  const double n = c.carrying() / c.plan.grid.area(), given = 0.3 * 1e-6 * n;
+  const ResponsePoint p = c.point();
+  EXPECT_NEAR(*p.friction_off.parts.solver, relative * (p.friction_off.value - given),
+              1e-9 * p.friction_off.value);
+  EXPECT_NEAR(*p.friction_on.parts.solver, relative * (p.friction_on.value - given),
+              1e-9 * p.friction_on.value);
+  EXPECT_NEAR(*p.modulation.parts.solver,
+              relative * (p.friction_on.value - given) / p.friction_off.value, 1e-9);
+  EXPECT_NEAR(*p.area_fraction_on.parts.solver, relative * p.area_fraction_on.value, 1e-12);
+  for (PatchResult& patch : c.patches)
+    patch.capillary_off = patch.retention = patch.retention_on = 0;
+  EXPECT_NEAR(*c.point().friction_off.parts.solver, 0, 1e-9 * given);
+}
+
 TEST(Point, TroubleIsTheFirstPatchesAPullInOrContactOfMoreThanThePatch) {
   Case c;
   EXPECT_TRUE(c.point().status.sound());

@@ -137,7 +137,8 @@ TEST(Status, EveryEndOfASearchForAVoltageHasItsWords) {
     return text(a);
   };
   EXPECT_EQ(said(VoltageEnd::Reached), "reached");
-  EXPECT_EQ(said(VoltageEnd::NoDielectric), "no dielectric: contact would short the drive");
+  EXPECT_EQ(said(VoltageEnd::NoDielectric),
+            "no dielectric, or none on side walls: contact would short the drive");
   EXPECT_EQ(said(VoltageEnd::Breakdown), "the dielectric breaks down at 312.3 V");
   EXPECT_EQ(said(VoltageEnd::Unsound), "contact: why");
   EXPECT_EQ(said(VoltageEnd::NotConverged), "the search for the voltage has not converged");

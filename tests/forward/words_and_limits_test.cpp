@@ -71,7 +71,9 @@ TEST(AnswerWords, OfEveryVoltage) {
   v.model = {Trouble::ClosedPullIn, 0, ""};
   const std::vector<std::pair<VoltageEnd, std::string>> table{
       {VoltageEnd::Reached, "reached"},
-      {VoltageEnd::NoDielectric, "no dielectric: contact would short the drive"},
+      {VoltageEnd::NoField, "what touches does not conduct: no field reaches it"},
+      {VoltageEnd::NoDielectric,
+       "no dielectric, or none on side walls: contact would short the drive"},
       {VoltageEnd::Breakdown, "the dielectric breaks down at 512.3 V"},
       {VoltageEnd::SourceEnds, "the source ends at 512.3 V"},
       {VoltageEnd::ModelEnds, "pull-in: no equilibrium short of a closed gap at 512 V"},

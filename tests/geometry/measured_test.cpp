@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "base/constants.h"
@@ -204,6 +205,67 @@ TEST(MeasuredMap, CutsOfASkinAreOfTheMapAndAnywhereInIt) {
   EXPECT_GT(rising, 8);
   std::sort(phases.begin(), phases.end());
   for (std::size_t i = 1; i < phases.size(); ++i) EXPECT_LT(phases[i] - phases[i - 1], 1.5);
+}
+
+// Beside holes a map that is taken as it is is pressed in whole periods: the patch grows to them,
+// or the map is refused. Cut at 1.2 of them it would step by all that its waves are high.
+TEST(MeasuredMap, InAStackIsTakenInWholePeriods) {
+  const Grid own{80, 80, 20e-6, 20e-6};
+  Heightmap ramp{own, {}};
+  for (std::size_t i = 0; i < own.size(); ++i)  // steps wherever it is cut but for its border
+    ramp.z.push_back(1e-7 * std::cos(2 * kPi * (static_cast<double>(i % 80) + 0.5) / 80));
+  const std::string file = temporary("whole.npy");
+  write_npy(file, ramp);
+  const auto beside = [&](double period, double side) {
+    Measured3d map;
+    map.file = file, map.width = map.patch = side, map.as_is = true;
+    Stack out;
+    out.parts = {Texture{HoleArray{.period = period, .diameter = 1e-6}}, Texture{map}};
+    return Texture{out};
+  };
+  const auto refused = [](const Texture& texture) {
+    return refusal_of([&] { generate(texture, simulated_patch(texture, 64)); });
+  };
+  EXPECT_NE(refused(beside(6e-6, 10e-6))
+                .find("texture.parts.1.patch: " + file +
+                      ": as_is says that it repeats after 10 x 10 um, and the 12 x 12 um of the "
+                      "stack that it is a part of are no whole number of them"),
+            std::string::npos)
+      << refused(beside(6e-6, 10e-6));
+  for (const auto& [period, side, patch] :
+       {std::tuple{6e-6, 18e-6, 18e-6}, {5e-6, 10e-6, 10e-6}, {6e-6, 3e-6, 12e-6}}) {
+    const Texture texture = beside(period, side);
+    EXPECT_EQ(refused(texture), "");
+    EXPECT_NEAR(simulated_patch(texture, 64).lx, patch, 1e-15);
+    EXPECT_NEAR(simulated_patch(texture, 64).ly, patch, 1e-15);
+  }
+  // The whole of it, where the patch is a square and the lattice beside it is none.
+  EXPECT_EQ(refusal_of([&] {
+              patch_of_map({file, 10e-6, false, true}, 6e-6, {}, {80, 80, 20e-6, 10e-6});
+            }),
+            "");
+  // Two maps: the longer, of which the other is whole times.
+  Stack both = std::get<Stack>(beside(5e-6, 10e-6).kind);
+  both.parts[0] = both.parts[1];
+  std::get<Measured3d>(both.parts[0].kind).patch = 5e-6;
+  EXPECT_NEAR(simulated_patch({both}, 64).lx, 10e-6, 1e-15);
+}
+
+// What repeats within a map, where it is known, is laid on any whole number of it, from its corner:
+// one column of three rows of hexagons on two by two.
+TEST(MeasuredMap, OfAKnownCellCoversTheCellsOfAnyPatch) {
+  const HoleArray holes{.lattice = Lattice::Hexagonal, .period = 4e-6, .diameter = 2e-6};
+  const double row = std::sqrt(3.0) * 4e-6;
+  Measured3d map;
+  map.file = temporary("cells.gsf");
+  map.patch = 4e-6, map.as_is = true;
+  write_gsf(map.file, generate(Texture{holes}, {80, 3 * 138, 4e-6, 3 * row}), {});
+  const Grid patch{160, 2 * 138, 8e-6, 2 * row};
+  EXPECT_NE(refusal_of([&] { generate(Texture{map}, patch); }), "");  // two of three
+  map.cell = UnitCell{4e-6, row};
+  EXPECT_EQ(simulated_patch({map}, 64), simulated_patch({holes}, 64));
+  EXPECT_LT(largest_difference(generate(Texture{map}, patch), generate(Texture{holes}, patch)),
+            1e-12);
 }
 
 TEST(MeasuredMap, RepeatsWithoutAStep) {

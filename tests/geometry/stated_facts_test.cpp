@@ -141,6 +141,37 @@ Texture stack(Combine combine, std::vector<Texture> parts) {
   return {out};
 }
 
+// Of walls, of sections with a formula, and where a large rim is cut by the floor before it is as
+// steep as its wall.
+TEST(StatedFacts, TheSteepestSlopeIsThatOfWallsOrOfTheFormula) {
+  const auto steepest = [](const Texture& t) { return facts(t).steepest; };
+  const auto near = [&](const Texture& t, double angle) {
+    ASSERT_TRUE(steepest(t)) << texture_name(t);
+    EXPECT_NEAR(*steepest(t), angle, 1e-7) << texture_name(t);
+  };
+  near({HoleArray{.wall_angle = kPi / 3}}, kPi / 3);
+  near({PillarArray{.height = 100e-9, .wall_angle = kPi / 2, .edge_radius = 200e-9}}, kPi / 3);
+  near({Grating{.depth = 0}}, 0);
+  near({VGrooves{.width = 4e-6, .depth = 2e-6}}, kPi / 4);
+  near({Waves{.period = 4e-6, .depth = 4e-6 / kPi}}, kPi / 4);
+  near({Waves{.directions = Waves::Directions::Both, .period = 4e-6, .depth = 4e-6 / kPi}},
+       std::atan(std::sqrt(0.5)));
+  // Half a sphere, and a cap of 1 um on 4 um: of a sphere of 2.5 um.
+  near({CapArray{.period = 6e-6, .diameter = 4e-6, .depth = 2e-6}}, kPi / 2);
+  near({CapArray{.period = 6e-6, .diameter = 4e-6, .depth = 1e-6}}, std::asin(0.8));
+  near({ParticleFilm{.embedding = 0.3}}, kPi / 2);
+  near({ParticleFilm{.embedding = 0.75}}, kPi / 3);
+  near({Flat{}}, 0);
+  near({RandomRough{.rms = 0}}, 0);
+  for (const Texture& t : {Texture{RandomRough{}}, Texture{EtchedGlass{}}, Texture{Measured3d{}}})
+    EXPECT_FALSE(steepest(t)) << texture_name(t);
+  // A rough part states none; slopes of a sum may lie on each other.
+  const Texture slope{VGrooves{.width = 4e-6, .depth = 2e-6}};
+  near(stack(Combine::Sum, {slope, Texture{RandomRough{}}}), kPi / 4);
+  near(stack(Combine::Sum, {slope, slope}), std::atan(2));
+  near(stack(Combine::Maximum, {slope, slope}), kPi / 4);
+}
+
 // The longest cell, the largest patch, the worst margins and the sharpest rim of its parts; planes
 // that add up or the higher ones.
 TEST(StatedFacts, OfAStackAreThoseOfItsParts) {
@@ -196,7 +227,8 @@ TEST(Contradictions, OfNumbersAreSaidInTheirUnits) {
             "diameter: 2.5 um is not smaller than the period 2 um; features would overlap\n");
   EXPECT_EQ(said_of({Grating{.period = 2e-6, .width = 2.25e-6}}),
             "width: 2.25 um is not smaller than the period 2 um; features would overlap\n");
-  EXPECT_EQ(said_of({PillarArray{.period = 2e-6, .diameter = 1.999e-6}}), "");
+  EXPECT_EQ(said_of({PillarArray{.period = 2e-6, .diameter = 1.999e-6, .wall_angle = kPi / 2}}),
+            "");
   // V-grooves may meet in a ridge.
   EXPECT_EQ(said_of({VGrooves{.period = 2e-6, .width = 2e-6}}), "");
   EXPECT_EQ(said_of({VGrooves{.period = 2e-6, .width = 2.1e-6}}),
@@ -209,7 +241,7 @@ TEST(Contradictions, OfNumbersAreSaidInTheirUnits) {
   EXPECT_EQ(groove(1.733e-6), "");
   EXPECT_EQ(groove(1.731e-6),
             "wall_angle: walls of 30 deg meet before the depth of 500 nm is reached; make them "
-            "steeper or the feature shallower\n");
+            "30.02 deg or steeper, or the depth 499.6 nm or less\n");
   EXPECT_EQ(said_of({HoleArray{
                 .period = 4e-6, .diameter = 1.731e-6, .depth = 500e-9, .wall_angle = kPi / 6}}),
             groove(1.731e-6));
@@ -225,6 +257,22 @@ TEST(Contradictions, OfNumbersAreSaidInTheirUnits) {
   EXPECT_EQ(said_of({RandomRough{.roll_off = 1e-3, .cutoff = 12e-6}}), "");
   EXPECT_EQ(said_of({RandomRough{.roll_off = 1e-3, .cutoff = 12.1e-6}}),
             "cutoff: 12.1 um is longer than the 12 um that rms is of; no wave would be left\n");
+}
+
+// Walls of 45 deg run as far as they are high: 100 nm to the middle of a gap of 200 nm. Their feet
+// may touch; merged, they would leave less than the height and no gap at all.
+TEST(Contradictions, OfPillarsWhoseFeetMergeSayTheGreatestHeight) {
+  const auto pillars = [](double height) {
+    return Texture{
+        PillarArray{.period = 3.2e-6, .diameter = 3e-6, .height = height, .wall_angle = kPi / 4}};
+  };
+  EXPECT_EQ(said_of(pillars(100e-9)), "");
+  EXPECT_EQ(said_of(pillars(1e-6)),
+            "wall_angle: walls of 45 deg meet before the height of 1000 nm is reached; make them "
+            "84.29 deg or steeper, or the height 100 nm or less\n");
+  const FabricationMargins merged = facts(pillars(1e-6)).margins;
+  EXPECT_EQ(merged.min_hole, 0);
+  EXPECT_EQ(merged.aspect_ratio, kInfinity);  // above every limit, not below 0
 }
 
 // Rims begin radius tan(angle / 2) beyond their edge: 1 um at 90 deg, on lands of 2 um. Of pillars
@@ -267,12 +315,43 @@ TEST(Contradictions, OfAStackNameThePart) {
   EXPECT_EQ(periods(6e-6, 2e-6), "");
   EXPECT_EQ(periods(2e-6, 6e-6), "");
   EXPECT_EQ(periods(6e-6, 2e-6 * (1 + 0.2e-6)), "");
-  EXPECT_EQ(periods(6e-6, 2e-6 * (1 + 0.5e-6)),
-            "parts.1.period: does not divide the largest period of the stack\n");
-  EXPECT_EQ(periods(2e-6 * (1 - 0.5e-6), 6e-6),
-            "parts.0.period: does not divide the largest period of the stack\n");
+  EXPECT_EQ(
+      periods(6e-6, 2e-6 * (1 + 0.5e-6)),
+      "parts.1.period: 2.000001 um does not divide the largest period of the stack, 6 um; the "
+      "nearest that do are 2 um and 3 um\n");
+  EXPECT_EQ(
+      periods(2e-6 * (1 - 0.5e-6), 6e-6),
+      "parts.0.period: 1.999999 um does not divide the largest period of the stack, 6 um; the "
+      "nearest that do are 1.5 um and 2 um\n");
   EXPECT_EQ(said_of(stack(Combine::Sum, {Texture{}, Texture{ParticleFilm{.coverage = 0.6}}})),
             "parts.1.coverage: random non-overlapping particles jam near 55 %; use at most 52 %\n");
+}
+
+// Rows of hexagons repeat after the root of three periods: of no square lattice of any period.
+// Lines are alike along y and ask for nothing there.
+TEST(Contradictions, OfAStackNameTheLatticesThatMissEachOtherAlongY) {
+  const auto holes = [](Lattice lattice, double period) {
+    return Texture{HoleArray{.lattice = lattice, .period = period, .diameter = 0.3e-6}};
+  };
+  const Texture hexagons = holes(Lattice::Hexagonal, 6e-6), lines{Grating{.period = 6e-6}};
+  EXPECT_EQ(
+      said_of(stack(Combine::Sum, {holes(Lattice::Square, 6e-6), hexagons})),
+      "parts.0.lattice: its rows repeat after 6 um along y, which does not divide the 10.3923 "
+      "um of the stack; make all lattices of it square, or all hexagonal\n");
+  EXPECT_NE(said_of(stack(Combine::Sum, {holes(Lattice::Square, 12e-6), hexagons})), "");
+  EXPECT_EQ(said_of(stack(Combine::Sum, {holes(Lattice::Hexagonal, 3e-6), hexagons})), "");
+  const auto cell_of = [](std::vector<Texture> parts) {
+    const Texture texture = stack(Combine::Sum, std::move(parts));
+    EXPECT_EQ(said_of(texture), "");
+    return *facts(texture).cell;
+  };
+  const UnitCell whole = *facts(hexagons).cell;
+  EXPECT_EQ(cell_of({lines, hexagons}), whole);
+  EXPECT_EQ(cell_of({hexagons, lines}), whole);
+  EXPECT_EQ(cell_of({stack(Combine::Sum, {lines, Texture{}}), hexagons}), whole);
+  EXPECT_EQ(cell_of({lines, holes(Lattice::Square, 3e-6)}), (UnitCell{6e-6, 3e-6}));
+  EXPECT_EQ(cell_of({lines, Texture{Grating{.period = 3e-6, .width = 1e-6}}}),
+            (UnitCell{6e-6, 6e-6}));
 }
 
 // The members that a kind names are its own, each in its place.

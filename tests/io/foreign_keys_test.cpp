@@ -41,6 +41,10 @@ std::string refusal(const std::string& path) {
   return "";
 }
 
+constexpr const char* kNoScale =
+    "an integer image without its height scale; multiply its levels by the height of one, and save "
+    "a float image in um, a .gsf, or a .npy in m";
+
 Keys gwyddion(const std::string& low, const std::string& high) {
   return {{"Gwy::XReal", "6"}, {"Gwy::YReal", "4.5"}, {"Gwy::ZMin", low},
           {"Gwy::ZMax", high}, {"Gwy::XYUnit", "um"}, {"Gwy::ZUnit", "nm"}};
@@ -71,15 +75,13 @@ TEST(ForeignKeys, OfAPngAreReadInTheirUnits) {
 
 TEST(ForeignKeys, OfAPngAreAllNeededAndNumbers) {
   const std::vector<std::uint16_t> grey(6, 7);
-  const std::string none =
-      "an integer image without its height scale; use a float image, .gsf or .npy";
   EXPECT_EQ(refusal(written("all.png", 3, 2, gwyddion("0", "1"), grey)), "");
   for (std::size_t i = 0; i < 4; ++i) {
     Keys keys = gwyddion("0", "1");
     keys[i].second += " or so";
-    EXPECT_EQ(refusal(written("words.png", 3, 2, keys, grey)), none) << i;
+    EXPECT_EQ(refusal(written("words.png", 3, 2, keys, grey)), kNoScale) << i;
     keys.erase(keys.begin() + static_cast<std::ptrdiff_t>(i));
-    EXPECT_EQ(refusal(written("less.png", 3, 2, keys, grey)), none) << i;
+    EXPECT_EQ(refusal(written("less.png", 3, 2, keys, grey)), kNoScale) << i;
   }
   // A unit that is no length counts for metres.
   Keys keys = gwyddion("0", "1");
@@ -112,10 +114,10 @@ TEST(ForeignKeys, OfADescriptionAreTakenWhereTheyAreOfTheirKind) {
   EXPECT_EQ(header.lx, 0);
   EXPECT_FALSE(header.polarity);
   EXPECT_TRUE(header.top_first);
-  const std::string none = "an integer image without its height scale";
   for (const char* json :
        {R"({"black_m": 1})", R"({"white_m": 1})", R"({"black_m": "0", "white_m": 1})", "{broken"})
-    EXPECT_EQ(refusal(written("none.tif", 2, 1, {{"ImageDescription", json}}, grey)), none) << json;
+    EXPECT_EQ(refusal(written("none.tif", 2, 1, {{"ImageDescription", json}}, grey)), kNoScale)
+        << json;
   // Floats are micrometres, whatever black and white are said to be.
   const auto rows =
       open_height_rows(written("floats.tif", 2, 1, {{"ImageDescription", "{" + scale + "}"}},
@@ -126,6 +128,39 @@ TEST(ForeignKeys, OfADescriptionAreTakenWhereTheyAreOfTheirKind) {
   EXPECT_NEAR(h(1, 0), -2e-6, 1e-18);
   EXPECT_EQ(h.grid.lx, 3e-6);
   EXPECT_EQ(h.grid.ly, 1.5e-6);
+}
+
+// Levels of an instrument in whatever whole numbers: taken for micrometres they would be heights of
+// a thousandth. What other programs say in a description is no scale.
+template <typename T>
+void expect_refused(const std::string& description) {
+  const Keys keys = description.empty() ? Keys{} : Keys{{"ImageDescription", description}};
+  EXPECT_EQ(refusal(written("levels.tif", 2, 2, keys, std::vector<T>{0, 1, 100, 120})), kNoScale)
+      << sizeof(T) << " bytes " << description;
+}
+
+TEST(ForeignKeys, WholeNumbersOfAnyWidthNeedTheHeightsOfBlackAndWhite) {
+  const std::string scale = R"({"black_m": 1e-7, "white_m": 3e-7})";
+  for (const std::string other : {"", R"({"shape": [64, 64]})"}) {
+    expect_refused<std::uint8_t>(other);
+    expect_refused<char>(other);
+    expect_refused<std::uint16_t>(other);
+    expect_refused<std::int16_t>(other);
+    expect_refused<std::uint32_t>(other);
+    expect_refused<std::int32_t>(other);
+  }
+  // Of signed and of wider ones it is nowhere said what is black and what is white.
+  expect_refused<std::int16_t>(scale);
+  expect_refused<std::uint32_t>(scale);
+  const auto rows = open_height_rows(
+      written("bytes.tif", 2, 1, {{"ImageDescription", scale}}, std::vector<std::uint8_t>{0, 51}));
+  EXPECT_NEAR(rows->header().step, 2e-7 / 255, 1e-20);
+  EXPECT_NEAR(whole_map(*rows, 1e-6)(1, 0), 1.4e-7, 1e-14);  // a fifth of the way
+  // Floats that another program described so are micrometres, as any are.
+  const auto floats =
+      open_height_rows(written("shape.tif", 2, 1, {{"ImageDescription", R"({"shape": [1, 2]})"}},
+                               std::vector<float>{0.5F, 2}));
+  EXPECT_NEAR(whole_map(*floats, 1e-6)(1, 0), 2e-6, 1e-18);
 }
 
 // 64 rows are read at a time: of 150 the last 22.

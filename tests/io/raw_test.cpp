@@ -91,9 +91,9 @@ TEST(Gsf, WithoutSidesItHasThoseThatAreGiven) {
     EXPECT_DOUBLE_EQ(h.grid.lx, 6) << said;
     EXPECT_DOUBLE_EQ(h.grid.ly, 4) << said;
     EXPECT_EQ(h(2, 0), 5) << said;
-    EXPECT_NE(refusal_of([&] {
-                read_heightmap(path);
-              }).find("the file does not say its lateral size; give it"),
+    EXPECT_NE(refusal_of([&] { read_heightmap(path); })
+                  .find("the file does not say its lateral size; give it: texture.width of a "
+                        "measured texture, --size of papilla surface"),
               std::string::npos)
         << said;
   }
@@ -112,6 +112,21 @@ TEST(Gsf, AnotherWidthThanItsOwnIsRefused) {
               std::string::npos)
         << error.what();
   }
+}
+
+// What a design is called is written by anybody: no part of it becomes a key of the header.
+TEST(Gsf, ATitleOfSeveralLinesIsOneLineOfTheHeader) {
+  const std::string path = temporary("title.gsf");
+  const Heightmap map{{2, 2, 6e-6, 4e-6}, {1e-6, 2e-6, 3e-6, 4e-6}};
+  write_gsf(path, map,
+            {"a\nZUnits = nm\r\nb" + std::string(1, '\0') + "c", "flat\nXReal = 1\nYReal = 1"});
+  const Heightmap back = read_heightmap(path);
+  EXPECT_DOUBLE_EQ(back.grid.lx, 6e-6);
+  EXPECT_DOUBLE_EQ(back.grid.ly, 4e-6);
+  EXPECT_NEAR(back(1, 1), 4e-6, 1e-12);
+  const std::string bytes = read_bytes(path);
+  EXPECT_NE(bytes.find("\nTitle = a ZUnits = nm  b c\n"), std::string::npos) << bytes;
+  EXPECT_NE(bytes.find("\nPapillaDesign = flat XReal = 1 YReal = 1\n"), std::string::npos) << bytes;
 }
 
 TEST(Gsf, WhatIsMissingOrNoNumberIsNamed) {

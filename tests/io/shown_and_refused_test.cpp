@@ -104,7 +104,8 @@ TEST(ReadHeights, OfPicturesAndArchivesAreThoseThatSayTheirScale) {
   write_png(shown, h);  // colours
   EXPECT_EQ(refusal(shown),
             "cannot read " + shown +
-                ": an integer image without its height scale; use a float image, .gsf or .npy");
+                ": an integer image without its height scale; multiply its levels by the height "
+                "of one, and save a float image in um, a .gsf, or a .npy in m");
   // To half a level of grey, as high as it was.
   const Heightmap back = read_heightmap(png);
   EXPECT_NEAR(back.grid.lx, 4e-6, 1e-15);

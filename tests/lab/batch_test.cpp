@@ -90,6 +90,25 @@ TEST(DecisionGain, LosesNothingByALimitThatIsFoundBroken) {
   EXPECT_LE(gain.regret_after(), gain.regret_now() + 1e-5);  // of a worth of 5
 }
 
+// Neither design keeps its limits as surely as is wanted. The better one keeps them at 28 of sixty
+// members, the other at 32, which members do not tell apart: the better one is chosen now, and
+// after a reading that says nothing.
+TEST(DecisionGain, ChoosesAfterAReadingByTheRuleOfToday) {
+  Ensemble e = linear_ensemble(60, {{1.0}}, {{0.0}, {0.0}});
+  DecisionLimits limits{{std::vector<bool>(60, false), std::vector<bool>(60, false)}, 0.9};
+  for (std::size_t m = 0; m < 60; ++m) {
+    e.worth[0][m] = 5;
+    limits.kept[m < 28 ? 0 : 1][m] = true;
+  }
+  const Kernels k = kernels_of(e);
+  const Instrument instrument = plain_instrument(50);
+  const Evidence none(e, k, instrument);
+  DecisionGain gain(e, k, none, limits, 100);
+  EXPECT_EQ(gain.choice(), 0u);
+  gain.take(candidate(0, 50));
+  EXPECT_EQ(gain.p_change(), 0);
+}
+
 TEST(ParametersGain, IsHalfTheLogarithmOfTheVarianceThatIsTakenAway) {
   const Ensemble e = linear_ensemble(400, {{2.0}}, {{1.0}, {0.0}});
   const Kernels k = kernels_of(e);

@@ -84,6 +84,30 @@ FrictionReading gauge_reading(int design, int finger, int day, double logarithm)
   return r;
 }
 
+// Ten designs, off and on, that one finger touches on two days: all see the same difference of
+// these days. So it is with two fingers.
+TEST(Gauge, CountsADifferenceOfTwoDaysOrFingersOnce) {
+  const auto gauge = [](bool two_fingers) {
+    std::vector<FrictionReading> readings;
+    for (int design = 0; design < 10; ++design) {
+      for (int second : {0, 1}) {
+        FrictionReading r = gauge_reading(design, two_fingers ? second : 0,
+                                          two_fingers ? 0 : second, second == 0 ? 0 : 0.6);
+        r.on = 1.2 * r.off;
+        readings.push_back(r);
+      }
+    }
+    return gauge_of(readings);
+  };
+  const Instrument stated{0.01, 0.1, 0.1, 0.03};
+  const Gauge days = gauge(false), fingers = gauge(true);
+  EXPECT_EQ(days.day_to_day.freedom, 1);
+  EXPECT_NEAR(days.day_to_day.deviation, 0.6 / std::sqrt(2.0), 1e-9);
+  EXPECT_EQ(after_gauge(stated, days).day_to_day, stated.day_to_day);
+  EXPECT_EQ(fingers.finger_to_finger.freedom, 1);
+  EXPECT_EQ(after_gauge(stated, fingers).finger_to_finger, stated.finger_to_finger);
+}
+
 // No finger has a second day: what repeats differ by is none of the fingers'.
 TEST(Gauge, TakesRepeatsOffFingersOfOneDay) {
   RandomStream random(11, "gauge");

@@ -545,6 +545,33 @@ TEST_F(LabFolder, SaysWhatIsWrongInLabToml) {
             std::string::npos);
 }
 
+// Measurements are valued by expected regret, whatever decides.
+TEST_F(LabFolder, SaysWhereMeasurementsAreValuedByAnotherCriterionThanItsOwn) {
+  stand_on_a_run();
+  const auto plan = [&] {
+    Lab lab(folder_, 1);
+    return lab_plan_text(lab, stopped(StopReason::Regret));
+  };
+  const char* const said = "by the least expected regret alone, not by `risk` = \"worst 10 %\"";
+  EXPECT_EQ(plan().find("not by"), std::string::npos);
+  LabFile lab_file = read_lab_file(folder_);
+  lab_file.risk = "worst 10 %";
+  write_text(folder_ + "/lab.toml", lab_file_text(lab_file));
+  EXPECT_NE(plan().find(said), std::string::npos) << plan();
+  EXPECT_NE(plan().find("It is chosen by `risk` = \"worst 10 %\" of lab.toml"), std::string::npos);
+  // A lab of an older program says none.
+  std::string text = lab_file_text(lab_file);
+  const std::size_t at = text.find("risk = ");
+  ASSERT_NE(at, std::string::npos);
+  text.erase(at, text.find('\n', at) + 1 - at);
+  write_text(folder_ + "/lab.toml", text);
+  EXPECT_EQ(read_lab_file(folder_).risk, "regret");
+  text.insert(at, "risk = \"luck\"\n");
+  write_text(folder_ + "/lab.toml", text);
+  EXPECT_NE(refusal_of([&] { read_lab_file(folder_); }).find("expected \"regret\", \"mean\""),
+            std::string::npos);
+}
+
 // A lab.toml by which a design can be chosen that the run says nothing of.
 TEST_F(LabFolder, RefusesAChoiceThatItsRunDoesNotKnow) {
   const RunWorth run{"worst(modulation)",

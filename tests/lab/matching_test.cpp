@@ -1,6 +1,7 @@
 // Which experiment a row or a record is of, and that none is guessed.
 #include "lab/matching.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <map>
@@ -21,11 +22,11 @@ class Tell : public testing::Test {
     lab_.conditions = {{0.2}, {0.35}, {200}, {}, {"clean"}};
   }
 
-  FrictionReading told(const std::string& text) const {
+  Matched matched(const std::string& text) const {
     const MatchContext to{lab_, designs_, planned_};
-    return match_table(read_measured_table(text, "table.csv"), to, {}, "table.csv")
-        .readings.front();
+    return match_table(read_measured_table(text, "table.csv"), to, {}, "table.csv");
   }
+  FrictionReading told(const std::string& text) const { return matched(text).readings.front(); }
   FrictionReading record(Trace trace, TraceReading reading, const std::string& name) const {
     const MatchContext to{lab_, designs_, planned_};
     return match_trace(trace, reading, to, {}, name).readings.front();
@@ -185,6 +186,50 @@ TEST_F(Tell, RefusesOptionsThatContradictTheExperiment) {
   EXPECT_EQ(refused_with(options), "field: E01 stands in no field, not in Z9\n");
   // In a table the column of a plan without fields is the user's.
   EXPECT_EQ(told("experiment,field,F_off_N\nE01,left,0.1\n").id, "E01");
+}
+
+// A plan that knows no other frequency than the design's own says 0 for it.
+TEST_F(Tell, TakesAnotherFrequencyForAnotherExperimentAndSaysSo) {
+  const Conditions planned{0.2, 0.35, 200, 0};
+  const double own = designs_.front().design.drive.frequency;
+  ASSERT_GT(own, 100);
+  PlannedExperiment e;
+  e.id = "E01";
+  e.experiment = {0, planned};
+  planned_ = {e};
+  lab_.fields = {field(0.2, 0.35, 200)};
+  for (const std::string name : {"experiment", "field", "design"}) {
+    const std::string id = name == "experiment" ? "E01" : name == "field" ? "A3" : "deep";
+    const auto at = [&](double frequency) {
+      return matched(fmt::format("{},frequency_Hz,F_on_N\n{},{},0.1\n", name, id, frequency));
+    };
+    EXPECT_EQ(at(own).readings.front().experiment.at, planned) << name;
+    EXPECT_TRUE(at(own).notes.empty()) << name;
+    EXPECT_EQ(at(1.01 * own).readings.front().experiment.at, planned) << name;
+    const Matched other = at(own / 5);
+    EXPECT_EQ(other.readings.front().experiment.at, (Conditions{0.2, 0.35, 200, own / 5})) << name;
+    if (name == "design") continue;  // nothing was planned of it
+    ASSERT_EQ(at(1.01 * own).notes.size(), 1u);
+    EXPECT_NE(at(1.01 * own).notes.front().find("2 % of frequency"), std::string::npos);
+    ASSERT_EQ(other.notes.size(), 1u);
+    EXPECT_EQ(other.notes.front(),
+              fmt::format("measured otherwise than planned, and taken as measured: {} at 35 % RH, "
+                          "0.2 N, 200 V at {} Hz, clean",
+                          id, own / 5));
+  }
+  // A row that is not measured yet has nothing to say.
+  EXPECT_TRUE(matched("experiment,frequency_Hz,F_on_N\nE01,77,\n").notes.empty());
+}
+
+// Both loads are within a tenth of .22 N.
+TEST_F(Tell, TakesAReadingForTheNearestOfItsConditions) {
+  lab_.conditions.load = {0.2, 0.22};
+  EXPECT_EQ(told("design,load_N,F_off_N\ndeep,0.22,0.1\n").experiment.at.load, 0.22);
+  EXPECT_EQ(told("design,load_N,F_off_N\ndeep,0.212,0.1\n").experiment.at.load, 0.22);
+  EXPECT_EQ(told("design,load_N,F_off_N\ndeep,0.208,0.1\n").experiment.at.load, 0.2);
+  lab_.fields = {field(0.2, 0.35), field(0.22, 0.35)};
+  EXPECT_EQ(told("field,load_N,F_off_N\nA3,0.22,0.1\n").experiment.at.load, 0.22);
+  EXPECT_EQ(told("field,load_N,F_off_N\nA3,0.2,0.1\n").experiment.at.load, 0.2);
 }
 
 TEST_F(Tell, TakesTheFingerToBeInTheOnlyStateOfTheLab) {

@@ -154,22 +154,17 @@ TEST_F(LabSources, SayWhyARunHasNoDecision) {
             std::string::npos);
 }
 
-// The reason is that of the run; what to do follows from what its study and its front are.
+// The reason is that of the run, which says what to do; where no design keeps the limits that is
+// said here.
 TEST_F(LabSources, SayWhatARunNeedsThatIsNotJudgedOverBelief) {
-  const auto refused = [&](const std::string& front, const std::string& finger) {
+  const auto refused = [&](const std::string& front) {
     write_text(own_.path() / "run/run.json", R"({"finalists": [{"folder": ")" + front +
                                                  R"("}], "decision": {"absent": "REASON"}})");
-    write_text(own_.path() / "run/resolved.toml", kStudy + finger);
     return refusal_of([&] { opened({"run"}); });
   };
   const std::string begin = path("run") + ": no decision by belief: REASON; ";
-  EXPECT_EQ(refused("front/01", ""),
-            begin +
-                "give the search more time (`search.time`, or less to evaluate) and search "
-                "again");
-  EXPECT_EQ(refused("front/01", "belief = \"\"\n"), begin + "then search again");
-  EXPECT_EQ(refused("", ""),
-            begin + "loosen a limit or give the search more room, and search again");
+  EXPECT_EQ(refused("front/01"), begin + "then search again");
+  EXPECT_EQ(refused(""), begin + "loosen a limit or give the search more room, and search again");
 }
 
 TEST_F(LabSources, WantLimitsKeptAsTheStudyOfTheRunDoes) {
@@ -177,6 +172,15 @@ TEST_F(LabSources, WantLimitsKeptAsTheStudyOfTheRunDoes) {
   write_text(own_.path() / "run/resolved.toml",
              std::string(kStudy) + "[risk]\nlimits = \"60 %\"\n");
   EXPECT_EQ(opened({"run"}).opening.file.limits, 0.6);
+}
+
+TEST_F(LabSources, DecideByTheRiskOfTheStudyOfTheRun) {
+  EXPECT_EQ(opened({"run"}).opening.file.risk, "regret");
+  write_text(own_.path() / "run/resolved.toml",
+             std::string(kStudy) + "[risk]\nbelief = \"worst 10 %\"\n");
+  const LabFile file = opened({"run"}).opening.file;
+  EXPECT_EQ(file.risk, "worst 10 %");
+  EXPECT_NE(lab_file_text(file).find("risk = \"worst 10 %\""), std::string::npos);
 }
 
 TEST_F(LabSources, TakeTheLimitsOfARunWithTheirProbabilities) {

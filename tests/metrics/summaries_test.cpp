@@ -173,6 +173,43 @@ TEST(Summaries, SamplingFollowsTheSummaryThroughTheSkins) {
   EXPECT_NEAR(of(Summary::Mean, r).parts.sampling, 9, 1e-12);
 }
 
+VoltageAnswer answer(double volts, const Values& without) {
+  VoltageAnswer out;
+  out.target = 0.3;
+  out.amplitude = {volts, {.sampling = 9}};
+  out.without = without;
+  return out;
+}
+
+// A voltage is sought on skins of its own, whatever the response has. Means 80, 82.5 and 77.5.
+TEST(Summaries, AVoltageFollowsItsOwnSkins) {
+  const VoltageFor metric{0.3};
+  Response r = response_of({0.5, 0.6});
+  r.without = {r.points, r.points, r.points};
+  r.points[0].voltages = {answer(100, {104, 96})};
+  r.points[1].voltages = {answer(60, {61, 59})};
+  EXPECT_NEAR(of(Summary::Mean, r, metric).parts.sampling, 2.5, 1e-12);
+  const ErrorSamples mean = error_samples(Summary::Mean, metric, r),
+                     worst = error_samples(Summary::Worst, metric, r),
+                     second = error_samples_at(1, metric, r);
+  ASSERT_EQ(mean.sampling.size(), 2u);
+  EXPECT_NEAR(mean.sampling[0], 77.5, 1e-12);
+  EXPECT_NEAR(mean.sampling[1], 82.5, 1e-12);
+  EXPECT_NEAR(worst.sampling.at(0), 96, 1e-12);
+  EXPECT_NEAR(second.sampling.at(0), 59, 1e-12);
+  EXPECT_TRUE(mean.grid.empty() && mean.method.empty());
+  // A design that skins move alike is told from it by all of their distance. Eq. accuracy.14
+  Response other = r;
+  other.points[0].voltages = {answer(110, {114, 106})};
+  EXPECT_NEAR(difference_error(error_samples(Summary::Mean, metric, other), mean).value(), 0,
+              1e-12);
+  // A humidity that lacks a skin leaves the points' own error, and its neighbour's samples.
+  r.points[1].voltages[0].without.pop_back();
+  EXPECT_TRUE(error_samples(Summary::Mean, metric, r).sampling.empty());
+  EXPECT_NEAR(of(Summary::Mean, r, metric).parts.sampling, 9, 1e-12);
+  EXPECT_EQ(error_samples_at(0, metric, r).sampling.size(), 2u);
+}
+
 // The control runs through the summary: of a spread by itself, of others as a share of the value.
 TEST(Summaries, GridAndMethodFollowASpreadThroughTheControls) {
   Response r = response_of({1, 3});
@@ -236,8 +273,73 @@ TEST(Summaries, StepsAreHalvedAndJackknifed) {
   }
 }
 
-// Three parts in squares, each from its pairs; of other skins none.
-TEST(Summaries, ADifferenceHasItsThreePartsInSquares) {
+// Of the field part two fiftieths of the pull are those of the 3-D field itself, the rest is the
+// design's own; a humidity without a pull has no correction.
+TEST(Summaries, TheFieldPartIsSplitIntoWhatAllDesignsShareAndTheRest) {
+  Response r = response_of({0.8, 0.6, 0});
+  const Values field{0.04, 0.03, 0}, corrections{0.9, 0.7, 1};
+  for (std::size_t i = 0; i < 3; ++i) {
+    r.points[i].modulation.parts.field = field[i];
+    r.points[i].field_correction = corrections[i];
+    r.points[i].field_error = 0.05;
+  }
+  const FieldPart mean = error_samples(Summary::Mean, kModulation, r).field,
+                  range = error_samples(Summary::Range, kModulation, r).field,
+                  second = error_samples_at(1, kModulation, r).field;
+  const double share = 0.4, rest = std::sqrt(1 - 0.16);
+  EXPECT_NEAR(mean.common, share * 0.07 / 3, 1e-12);
+  EXPECT_NEAR(mean.own, rest * 0.07 / 3, 1e-12);
+  EXPECT_NEAR(mean.error(), of(Summary::Mean, r).parts.field.value(), 1e-12);
+  ASSERT_EQ(mean.corrections.size(), 2u);
+  EXPECT_NEAR(mean.corrections[1], std::log(0.7), 1e-12);
+  EXPECT_NEAR(mean.of_skins, rest * 0.05, 1e-12);
+  EXPECT_NEAR(range.common, 0, 1e-12);  // over the mean: one factor on all values is no part of it
+  EXPECT_GT(range.own, 0);              // humidities differ by a part of it
+  EXPECT_NEAR(second.own, rest * 0.03, 1e-12);
+  EXPECT_EQ(second.corrections.size(), 1u);
+  EXPECT_TRUE(
+      error_samples(Summary::Mean, parse_metric("friction").metric, r).field.corrections.empty());
+}
+
+// A stronger pull lowers the amplitude; how much stronger is that of the amplitude's own field,
+// which a design without a drive has nowhere else.
+TEST(Summaries, TheFieldPartOfAVoltageIsThatOfItsAmplitude) {
+  Response r = response_of({0});
+  VoltageAnswer there = answer(100, {});
+  there.amplitude.parts.field = 2;
+  there.field_correction = 0.8;
+  there.field_error = 0.05;
+  r.points[0].voltages = {there};
+  const FieldPart part = error_samples(Summary::Mean, VoltageFor{0.3}, r).field;
+  EXPECT_NEAR(part.common, -0.4 * 2, 1e-12);
+  EXPECT_NEAR(part.own, -std::sqrt(1 - 0.16) * 2, 1e-12);
+  EXPECT_NEAR(part.error(), of(Summary::Mean, r, VoltageFor{0.3}).parts.field.value(), 1e-12);
+  ASSERT_EQ(part.corrections.size(), 1u);
+  EXPECT_NEAR(part.corrections[0], std::log(0.8), 1e-12);
+}
+
+// Of fields that are alike nothing is left but what all corrections share of the difference; of
+// others both parts, and between them it rises evenly.
+TEST(Summaries, TheFieldPartOfADifferenceFallsAsTheFieldsAreAlike) {
+  const auto part = [](double common, double own, double correction) {
+    return FieldPart{common, own, {correction, correction}, 0.03};
+  };
+  const FieldPart a = part(0.016, 0.03, -0.3);
+  EXPECT_NEAR(field_difference_error(a, part(0.01, 0.02, -0.3)), 0.006, 1e-12);
+  EXPECT_NEAR(field_difference_error(a, part(0.016, 0.04, -0.2)), 0.05, 1e-12);
+  // Half of what two skins scatter by apart: a quarter of the squares.
+  const double half = 0.5 * 0.03 * std::sqrt(2);
+  EXPECT_NEAR(field_difference_error(a, part(0.016, 0.04, -0.3 + half)), 0.025, 1e-12);
+  FieldPart fewer = part(0.016, 0.04, -0.3);
+  fewer.corrections.pop_back();  // not known of the same humidities
+  EXPECT_NEAR(field_difference_error(a, fewer), 0.05, 1e-12);
+  EXPECT_EQ(field_difference_error(a, a), 0);
+  ErrorSamples one{{1, 2}, {}, {}, a}, other{{1, 2}, {}, {}, part(0.016, 0.04, -0.2)};
+  EXPECT_NEAR(difference_error(one, other).value(), 0.05, 1e-12);
+}
+
+// Parts in squares, each from its pairs; of other skins none.
+TEST(Summaries, ADifferenceHasItsPartsInSquares) {
   const ErrorSamples a{{1, 2, 6}, {0.5, 0.7}, {0.2, 0.4}}, b{{1, 1, 1}, {0.1, 0.1}, {0.1, 0.1}};
   const Values sampling{0, 1, 5}, grid{0.4, 0.6}, method{0.1, 0.3};
   EXPECT_NEAR(difference_error(a, b).value(),

@@ -152,8 +152,8 @@ TEST(MetricWords, ASpreadIsBetterLow) {
     EXPECT_EQ(better_direction(parse_metric(text)), better) << text;
 }
 
-// mN, nm and um/MPa; shares to three decimals, of light to two of a per cent, quantities to four
-// digits, errors to two.
+// mN, nm and um/MPa; looks to a decimal beyond what instruments resolve, other shares to three
+// decimals, quantities to four digits, errors to two.
 TEST(MetricWords, ValuesAreShownInTheUnitsOfPeople) {
   struct Row {
     const char* metric;
@@ -172,7 +172,11 @@ TEST(MetricWords, ValuesAreShownInTheUnitsOfPeople) {
                          {"haze", 100, "%", "12.35", "+12", "12.35"},
                          {"worst(sparkle)", 100, "%", "12.35", "+12", "12.35"},
                          {"variation(haze)", 1, "", "0.123", "+0.12", "0.123"},
-                         {"gloss", 1, "", "0.123", "+0.12", "0.123"},
+                         {"contact_area", 100, "%", "12.346", "+12", "12.346"},
+                         {"last(wetted_fraction)", 100, "%", "12.346", "+12", "12.346"},
+                         {"variation(contact_area)", 1, "", "0.123", "+0.12", "0.123"},
+                         {"gloss", 1, "", "0.12", "+0.12", "0.12"},
+                         {"colour_shift", 1, "", "0.1235", "+0.12", "0.1235"},
                          {"drive.amplitude", 1, "V", "0.1235", "+0.12", "0.12"}}) {
     const MetricExpression e = parse_metric(row.metric);
     EXPECT_EQ(shown_unit(e).scale, row.scale) << row.metric;
@@ -188,6 +192,17 @@ TEST(MetricWords, ValuesAreShownInTheUnitsOfPeople) {
   // What nothing scatters has rounding alone.
   EXPECT_EQ(shown_error(parse_metric("haze"), 1e-17), "0.00");
   EXPECT_EQ(shown_change(parse_metric("friction"), -0.0), "+0");
+}
+
+TEST(MetricWords, AnErrorIsNeverShownAsNothing) {
+  const MetricExpression modulation = parse_metric("modulation");
+  EXPECT_EQ(shown_with_error(modulation, 0.4906, 0.0243), "0.491 ± 0.024");
+  EXPECT_EQ(shown_with_error(modulation, 0.49064, 0.00031), "0.4906 ± 0.0003");
+  EXPECT_EQ(shown_with_error(modulation, 4.1e-4, 1e-4, true), "+0.0004 ± 0.0001");
+  EXPECT_EQ(shown_with_error(parse_metric("contact_area"), 0.01637, 0.00071), "1.637 ± 0.071");
+  EXPECT_EQ(shown_with_error(parse_metric("friction"), 0.1234, 0.0012), "123.4 ± 1.2");
+  // What nothing scatters has its last bits.
+  EXPECT_EQ(shown_with_error(parse_metric("haze"), 0.4, 1e-17), "40.00 ± 0.00");
 }
 
 // A voltage is that of its target, where it is reached; else people are told what came first.
@@ -217,6 +232,10 @@ TEST(MetricWords, AVoltageThatIsNotReachedSaysWhatCameFirst) {
   EXPECT_EQ(why_undefined(VoltageFor{0.5}, r),
             "75 % RH: the dielectric breaks down at 500 V (modulation 0.123)");
   EXPECT_EQ(why_undefined(VoltageFor{0.2}, r), "");
+  missed.end = VoltageEnd::NoField;  // nothing was driven
+  missed.limit = missed.modulation = 0;
+  EXPECT_EQ(why_undefined(VoltageFor{0.5}, r),
+            "75 % RH: what touches does not conduct: no field reaches it");
   r.driven = false;
   EXPECT_EQ(why_undefined(kFrictionOn, r), "not driven (0 V)");
   EXPECT_EQ(why_undefined(kFriction, r), "");

@@ -208,6 +208,52 @@ TEST(LatticeLook, OfADesignBetweenTheTheories) {
   EXPECT_NEAR(o.spectrum[8].haze, 1 - d.straight() / d.transmission(), 1e-9);
 }
 
+// A fill under a flat face bends what leaves it into air: an order is read by its angle there.
+TEST(LatticeLook, HazeIsReadInAirWhateverFillsTheTexture) {
+  Grating g;
+  g.period = 1e-6, g.width = 0.5e-6, g.depth = 200e-9, g.wall_angle = kPi / 2, g.edge_radius = 0;
+  const FeatureArray array = *sections(Texture{g});
+  const OpticalMedia media{1.8, 1.4};
+  Meters meters;
+  meters.cone = kPi / 6;  // the first order of 500 nm leaves there
+  const Optics o = lattice_look(array, media, meters);
+  for (const std::size_t k : {4u, 8u}) {  // 480 and 560 nm
+    const SpectrumPoint& point = o.spectrum[k];
+    double within = 0, all = 0;
+    for (const Polarisation p : kPolarisations) {
+      const Diffracted d = diffract(lattice_stack(array, media), {point.wavelength, 0, p}, 4);
+      all += d.transmission();
+      within += d.straight();
+      if (point.wavelength < 500e-9)
+        within += power_of(d.transmitted, 1, 0) + power_of(d.transmitted, -1, 0);
+    }
+    EXPECT_NEAR(point.haze, 1 - within / all, 1e-9) << point.wavelength;
+  }
+  EXPECT_GT(o.spectrum[8].haze, 0.05);
+}
+
+// Sloped walls of lines in slices of 40 nm at most down to 2.56 um, of discs down to 640 nm; what
+// is deeper says so.
+TEST(LatticeLook, DeepSlopesAreSlicedAsFinelyAsShallowOnesOrItIsSaid) {
+  Waves w;
+  w.period = 3e-6, w.depth = 2e-6;
+  EXPECT_EQ(lattice_stack(*sections(Texture{w}), {1.46, 1}).slices.size(), 50u);
+  const auto line = [](double depth) {
+    VGrooves v;
+    v.period = 0.2e-6, v.width = 0.15e-6, v.depth = depth;
+    return *sections(Texture{v});
+  };
+  EXPECT_EQ(lattice_stack(line(2.56e-6), {1.46, 1}).slices.size(), 64u);
+  EXPECT_EQ(lattice_stack(line(3.2e-6), {1.46, 1}).slices.size(), 64u);
+  EXPECT_EQ(lattice_look(line(2.56e-6), {1.46, 1}, {}, 1).warning, "");
+  EXPECT_EQ(lattice_look(line(3.2e-6), {1.46, 1}, {}, 1).warning,
+            "sloped walls 3200 nm deep are sliced every 50 nm instead of 40: the rigorous look "
+            "is rough; make the texture at most 2560 nm deep");
+  HoleArray h;
+  h.period = 2e-6, h.diameter = 1e-6, h.depth = 640e-9, h.wall_angle = 80 * kPi / 180;
+  EXPECT_EQ(lattice_stack(*sections(Texture{h}), {1.46, 1}).slices.size(), 16u);
+}
+
 // V-grooves in slices: finer ones change nothing, and no upright wall is left out.
 TEST(LatticeLook, OfVGroovesIsThatOfTheirSlices) {
   VGrooves v;

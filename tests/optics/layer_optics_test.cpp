@@ -157,6 +157,45 @@ TEST(LayerOptics, HazeOfDisorderIsItsIntegral) {
   }
 }
 
+// (n + ik)^2 of the film that is cut: light along the normal by the matrices, Bruggeman by Newton.
+TEST(LayerOptics, OfAnAbsorbingFilmTakesItsShare) {
+  OpticalMedia media;
+  media.index = 1.8, media.extinction = 0.2, media.thickness = 200e-9, media.plate_index = 1.46;
+  constexpr double kOpen = 0.4, kDepth = 150e-9, kWavelength = 500e-9;
+  const Complex e1 = 1, e2 = Complex(1.8, 0.2) * Complex(1.8, 0.2);
+  const Complex mean = kOpen * e1 + (1 - kOpen) * e2,
+                harmonic = 1.0 / (kOpen / e1 + (1 - kOpen) / e2);
+  Complex round = mean;
+  for (int k = 0; k < 50; ++k) {
+    const Complex off = kOpen * (e1 - round) / (e1 + round) +
+                        (1 - kOpen) * (e2 - round) / (e2 + round),
+                  slope = -2.0 * (kOpen * e1 / ((e1 + round) * (e1 + round)) +
+                                  (1 - kOpen) * e2 / ((e2 + round) * (e2 + round)));
+    round -= off / slope;
+  }
+  for (const auto& [features, layers] :
+       {std::pair{Features::Holes, std::vector{round}}, {Features::Lines, {harmonic, mean}}}) {
+    const Light light{{kWavelength}};
+    const SpectrumPoint p = effective_medium(kOpen, kDepth, features, media, {}, light).spectrum[0];
+    double through = 0;
+    for (const Complex& e : layers) {
+      const Sheet layer{{e, e, e}, kDepth}, rest{plain({1.8, 0.2}), 50e-9};
+      const auto of = [&](double from, const std::vector<Sheet>& sheets, double to) {
+        return stack_amplitudes(plain(from), sheets, plain(to), Polarisation::S, 0, kWavelength);
+      };
+      const double back = bare(1, 1.46, true, 0);
+      through += std::norm(of(1, {layer, rest}, 1.46).transmitted) * (1 - back) /
+                 (1 - std::norm(of(1.46, {rest, layer}, 1).reflected) * back) /
+                 static_cast<double>(layers.size());
+    }
+    EXPECT_NEAR(p.transmitted, through, 1e-9) << static_cast<int>(features);
+    media.extinction = 0;
+    EXPECT_LT(through,
+              0.8 * effective_medium(kOpen, kDepth, features, media, {}, light).transmittance);
+    media.extinction = 0.2;
+  }
+}
+
 // Nothing to displace: no features, or nothing but them.
 TEST(LayerOptics, NothingIsDisorderedWhereThereIsOneMedium) {
   for (const Features features : {Features::Holes, Features::Pillars, Features::Lines}) {

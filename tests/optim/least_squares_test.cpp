@@ -141,6 +141,36 @@ TEST(LeastSquares, SenselessParametersAreRefused) {
   }
 }
 
+// Who asks for the fit sees it before the profiles, and spares them.
+TEST(LeastSquares, ProfilesAreWalkedFromAFitThatIsToldFirst) {
+  const ResidualFunction f = [](std::span<const double> p, std::span<double> r) {
+    for (std::size_t i = 0; i < r.size(); ++i)
+      r[i] = 10 * (std::exp(-p[0] * 0.3 * static_cast<double>(i)) -
+                   std::exp(-0.15 * static_cast<double>(i)));
+    return true;
+  };
+  const std::vector<FitParameter> parameters{{"p", 1, 0, 5}};
+  LeastSquaresOptions options;
+  options.profiles = true, options.profile_iterations = 0;
+  const LeastSquaresFit by_errors = least_squares(parameters, 6, f, options);
+  options.profile_iterations = 30;
+  const LeastSquaresFit profiled = least_squares(parameters, 6, f, options);
+  ASSERT_GT(profiled.evaluations, by_errors.evaluations);
+  for (const bool walked : {false, true}) {
+    std::vector<LeastSquaresFit> told;
+    options.walks_profiles = [&](const LeastSquaresFit& fit) {
+      told.push_back(fit);
+      return walked;
+    };
+    const LeastSquaresFit fit = least_squares(parameters, 6, f, options);
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_EQ(told[0].evaluations, by_errors.evaluations);
+    EXPECT_EQ(told[0].parameters[0].high, by_errors.parameters[0].high);
+    EXPECT_EQ(fit.evaluations, walked ? profiled.evaluations : by_errors.evaluations);
+    EXPECT_EQ(fit.parameters[0].high, (walked ? profiled : by_errors).parameters[0].high);
+  }
+}
+
 // Where the differences of a step of a twentieth are taken: a logarithm's by factors e^0.05,
 // whatever its prior; a number's by that share of itself, next to zero of its prior's width.
 TEST(LeastSquares, DifferencesAreTakenAtTheStepOfTheParameter) {

@@ -53,6 +53,34 @@ def inspect_optimize(browser):
             c.getContext('2d').drawImage(s.renderer.domElement, 0, 0, 64, 64);
             return new Set(c.getContext('2d').getImageData(0, 0, 64, 64).data).size""")
         check(distinct > 4, "the solid is empty")
+        # The lowest y is in front, and the section cuts there.
+        ends = "const z = papilla.solid.turn.children[0].geometry.attributes.position.array.filter((v, i) => i % 3 === 2); return [z[0], Math.max(...z), Math.min(...z)]"
+        first, front, back = browser.run(ends)
+        check(first == front > 0 > back, f"the lowest y of the solid at {first} of {back} to {front}")
+        cut = "const r = document.querySelectorAll('.solidtools input')[1]; r.value = {}; r.dispatchEvent(new Event('input'))"
+        browser.run(cut.format(60))
+        after = browser.run(ends)
+        browser.run(cut.format(0))
+        check(after[1] < 0 and after[2] == back, f"a section at 60 % leaves {after[2]} to {after[1]} of {back} to {front}")
+    # The lowest y of a map is at the bottom of its picture, as in every file: its row alone is bright here.
+    rows = browser.run("""
+        const c = document.getElementById('top'), { map } = c.$map, { low, high } = map, kept = map.values.slice(), height = c.height - 46;
+        [map.low, map.high] = [0, 1];
+        map.values.fill(0, map.nx).fill(1, 0, map.nx);
+        const copy = Object.assign(document.createElement('canvas'), { width: c.width, height: c.height });
+        const brush = copy.getContext('2d', { willReadFrequently: true });
+        c.$paint(brush);
+        const red = (y) => brush.getImageData(c.width / 2, y, 1, 1).data[0], rows = [red(1), red(height - 2)];
+        map.values.set(kept);
+        [map.low, map.high] = [low, high];
+        return rows""")
+    check(rows[0] < 100 and rows[1] > 200, f"the lowest row is not at the bottom: red {rows}")
+    told = browser.run("""
+        const c = document.getElementById('top');
+        c.onmousemove({ offsetX: 1, offsetY: c.clientHeight * (c.height - 46) / c.height - 1 });
+        return [c.title, c.$map.map.ly / c.$map.map.ny / 2]""")
+    at, unit = re.search(r", ([0-9.]+) (nm|µm)$", told[0]).groups()
+    check(abs(float(at) * {"nm": 1e-9, "µm": 1e-6}[unit] - told[1]) < 0.1 * told[1], f"pointing at the bottom says {told}")
     check(browser.run("return document.querySelectorAll('#maps canvas').length") >= 4, "no pictures of the contact")
 
     # Point at the last design of the front, then select it.

@@ -71,6 +71,23 @@ TEST(Comparison, StatesDifferencesWithTheErrorsOfBothRuns) {
   EXPECT_EQ(text.find("texture.period"), std::string::npos) << "the same in both";
 }
 
+TEST(Comparison, NamesEveryRunThatRecommendsNoneOfItsFront) {
+  const TemporaryFolder place;
+  const std::string one = run(place, "one", "200 V", 0), two = run(place, "two", "200 V", 0);
+  const auto flat = [](const std::string& folder) {
+    Json told = Json::parse(read_bytes(folder + "/run.json"));
+    told["design"] = nullptr;
+    write_bytes(folder + "/run.json", told.dump());
+  };
+  flat(two);
+  EXPECT_NE(comparison_markdown(one, two).find("\ntwo recommends no design of its front."),
+            std::string::npos);
+  flat(one);
+  EXPECT_NE(comparison_markdown(one, two).find("Neither one nor two recommends a design of its "
+                                               "front."),
+            std::string::npos);
+}
+
 TEST(Comparison, TellsHowMuchOfBothFrontsEachReaches) {
   const TemporaryFolder place;
   // The second is better by 0.1 everywhere, so it reaches all; of the first, with the reference at

@@ -103,6 +103,19 @@ TEST(FitReport, AFitThatStoppedEarlySaysWhatToDo) {
   EXPECT_EQ(nlohmann::json::parse(calibration_json(f.c, f.r))["warning"], warning);
 }
 
+// What is warned of need not be that the fit misses the data.
+TEST(FitReport, TellsProgramsWhetherTheDataAreExplained) {
+  Fitted f;
+  const auto told = [&] {
+    return nlohmann::json::parse(calibration_json(f.c, f.r)).at("explains_data");
+  };
+  f.r.fit.converged = false;
+  EXPECT_NE(calibration_warning(f.r), "");
+  EXPECT_EQ(told(), true);
+  f.r.fit.chi2 = 1605;
+  EXPECT_EQ(told(), false);
+}
+
 // Twenty values, each missed by a share of its deviation; chi squared of 20 degrees of freedom is
 // below 5.4 in one of two thousand tables.
 TEST(FitReport, DeviationsThatAreTooLargeAreSaidSo) {

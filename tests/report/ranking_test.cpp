@@ -61,7 +61,7 @@ TEST(RankingReport, ForPeopleHasEachNumberUnderItsHead) {
             (Cells{"rank", "design", "mean(friction):low mN", "variation(friction):low",
                    "mean(compliance):high um/MPa", "ahead of the next, %", "model part", "p(ahead)",
                    "p(best)", "skins"}));
-  EXPECT_EQ(cells(lines[2]), (Cells{"1", "fine", "100 ± 10", "0.250 ± 0.050", "3.0 ± 1.0",
+  EXPECT_EQ(cells(lines[2]), (Cells{"1=", "fine", "100 ± 10", "0.250 ± 0.050", "3.0 ± 1.0",
                                     "12.0 [4.0, 20.0]", "±9.8", "0.900", "0.800", "24"}));
   EXPECT_EQ(cells(lines[3]), (Cells{"2", "hard", "200 ± 20", "-0.50 ± 0.10", "1.50 ± 0.50", "-",
                                     "-", "-", "0.200", "18"}));
@@ -74,7 +74,24 @@ TEST(RankingReport, ForPeopleHasEachNumberUnderItsHead) {
             std::string::npos);
   EXPECT_NE(table.find("all designs met the same skins (18 at least): trust the order"),
             std::string::npos);
-  EXPECT_NE(table.find("42 patches of skin in all, 6.5 s"), std::string::npos);
+  EXPECT_NE(table.find("± and [ ] are 95 % intervals over skins and the parameters of the finger; "
+                       "= marks a tie with the next. 42 patches of skin in all, 6.5 s"),
+            std::string::npos)
+      << table;
+}
+
+// Of several criteria without weights there is neither a lead in brackets nor a tie.
+TEST(RankingReport, ItsLastLinesTellWhatTheTableHas) {
+  Ranked r;
+  r.ranking.directions = 0, r.ranking.members = 32;
+  EXPECT_NE(ranking_table(r.names, r.options, r.ranking)
+                .find("± and [ ] are 95 % intervals over skins and belief; = marks a tie"),
+            std::string::npos);
+  r.options.weights.clear();
+  const std::string table = ranking_table(r.names, r.options, r.ranking);
+  EXPECT_NE(table.find("± are 95 % intervals over skins and belief. 42 patches"), std::string::npos)
+      << table;
+  EXPECT_EQ(table.find('='), std::string::npos) << table;
 }
 
 // A look takes no finger: neither its belief nor patches of its skin are spoken of.

@@ -87,6 +87,13 @@ TEST(ResponseLines, OfTheFieldSayTheWorstOfAllHumidities) {
                         "1.25 times its strength; at most 0.8 of this amplitude is sure to hold, "
                         "and voltage_for and studies go no farther\n"
                         "pull: field rule times 0.80 to 1.20, by the 3-D field; good to 7 %\n");
+  a.bridged_margin = 0;
+  EXPECT_EQ(last(), air +
+                        "warning: the dielectric is at risk: it holds the field that was solved, "
+                        "but the electrode is bare on side walls, where a bridge or a contact "
+                        "would short the drive; voltage_for and studies refuse it: cover the walls "
+                        "(surface.step_coverage, a conformal layer)\n"
+                        "pull: field rule times 0.80 to 1.20, by the 3-D field; good to 7 %\n");
   a.oxide_margin = 0.5;
   EXPECT_EQ(last(), air +
                         "warning: the dielectric breaks down: the field in a layer is 2 times its "

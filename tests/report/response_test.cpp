@@ -133,7 +133,9 @@ TEST(ResponseReport, VoltagesTargetAndLookHaveALineEach) {
   reached.amplitude.parts = {.sampling = 3, .grid = 4};
   VoltageAnswer ends;
   ends.target = 2, ends.modulation = 0.75, ends.limit = 300, ends.end = VoltageEnd::Breakdown;
-  r.points[0].voltages = {reached, ends};
+  VoltageAnswer none;  // is not asked of the model: nothing came first
+  none.target = 3, none.end = VoltageEnd::NoField;
+  r.points[0].voltages = {reached, ends, none};
   r.accuracy.target = 0.02, r.accuracy.reached = 0.015, r.accuracy.quantity = "mean(modulation)";
   r.appearance = Optics{};
   r.appearance->haze = 0.0123, r.appearance->transmittance = 0.912, r.appearance->gloss = 87;
@@ -144,6 +146,7 @@ TEST(ResponseReport, VoltagesTargetAndLookHaveALineEach) {
             "modulation 0.5 at 35 % RH: 123.4 ±5.0 V (±: sampling, grid; not in ±: solver, method, "
             "field, parameters, model, water)\n"),
         "modulation 2 at 35 % RH: " + text(ends) + " first (modulation 0.75)\n",
+        "modulation 3 at 35 % RH: " + text(none) + "\n",
         std::string("accuracy 2 % asked for, 1.5 % of mean(modulation): reached (96 pixels, 5 "
                     "skins, solved areas)\n"),
         std::string(

@@ -24,6 +24,7 @@
 #include "report/run_numbers.h"
 #include "report/sheet.h"
 #include "report/stated_number.h"
+#include "report/surface_changes.h"
 #include "report/tables.h"
 #include "report/yield.h"
 #include "tests/report/same_json.h"
@@ -271,6 +272,37 @@ TEST(BuildSheet, SaysWhatTheTextureGainsAndItsTolerances) {
   EXPECT_EQ(advice_of(costly.problem, costly.result), Advice::Nothing);
 }
 
+// However small beside its three decimals, a gain beyond its error is said.
+TEST(BuildSheet, SaysASmallGainThatIsBeyondItsError) {
+  Searched run;
+  Score small = score(0.5004, 0.3, 0.25);
+  small.errors = {1e-4, 0.023};
+  run.result.finalists[0].confirmed = small;
+  small.values[0] = 0.5;
+  run.result.flat = small;
+  EXPECT_NE(as_read(recommendation(run.files()))
+                .find("Its texture raises mean(modulation) by 0.0004 ± 0.0001 (better)."),
+            std::string::npos)
+      << as_read(recommendation(run.files()));
+}
+
+TEST(ScoreChanges, AreThoseThatInstrumentsResolve) {
+  Study study = holes();
+  study.objective = {};
+  study.objective.minimise = {parse_metric("contact_area"), parse_metric("colour_shift")};
+  const Searched run(study);
+  Score design = score(0.0160, 0.0021, 0.25), other = score(0.0164, 1.8e-7, 0.25);
+  design.errors = other.errors = {1e-4, 0};
+  const auto changes = [&] {
+    return as_read(score_changes(run.files(), {"this", "that"}, design, other));
+  };
+  EXPECT_EQ(changes(),
+            "lowers mean(contact_area) by 0.040 ± 0.010 % (better) and raises mean(colour_shift) "
+            "by 0.0021 (worse)");
+  design.values[1] = 1.6e-4;  // colour_shift is resolved to 0.001
+  EXPECT_EQ(changes(), "lowers mean(contact_area) by 0.040 ± 0.010 % (better)");
+}
+
 // Where no texture of the study has depth 0 the flat surface is none of the finalists: what was
 // checked of its texture is not said of it.
 TEST(BuildSheet, ChecksOfATextureAreNotThoseOfTheSurfaceWithoutIt) {
@@ -282,6 +314,20 @@ TEST(BuildSheet, ChecksOfATextureAreNotThoseOfTheSurfaceWithoutIt) {
   run.result.flat = score(0.49, 0.29, 0.2);
   ASSERT_EQ(advice_of(run.problem, run.result), Advice::Finish);
   EXPECT_EQ(recommended_place(run.files()), std::nullopt);
+}
+
+// Without a number that was searched there is neither a table of tolerances nor what they mean.
+TEST(BuildSheet, OfAFlatSurfaceWithoutNumbersHasNoTolerances) {
+  Study study = holes();
+  study.variables.back().path = "texture.wall_angle";  // in place of the contact angle
+  Searched run(study);
+  EXPECT_NE(as_read(sheet_text(run.files())).find("Tolerance: "), std::string::npos);
+  run.result.flat = run.result.flat_before = score(0.49, 0.29, 0.2);
+  ASSERT_TRUE(sheet_rows(run.files()).empty());
+  const std::string sheet = as_read(sheet_text(run.files()));
+  for (const char* words : {"| dimension |", "Tolerance: "})
+    EXPECT_EQ(sheet.find(words), std::string::npos) << words << " in " << sheet;
+  EXPECT_NE(sheet.find("\n\n| limit |"), std::string::npos) << sheet;
 }
 
 // Lead, dimensions and JSON are of one surface: that without a texture.
@@ -540,6 +586,20 @@ TEST(BuildSheet, SaysWhatItRestsOn) {
 }
 
 // A layer may be made otherwise than the surface says.
+TEST(BuildSheet, NamesThePenThatItIsJudgedFor) {
+  Study study = holes();
+  Pin& pen = study.design.counterface.pen;
+  pen.name = "POM tip";
+  pen.load = 1, pen.modulus = 3e9, pen.radius = 0.7e-3, pen.shear_strength = 30e6;
+  const auto said = [&] { return as_read(join_names(grounds(Searched(study).files()), "\n")); };
+  EXPECT_EQ(said().find("POM"), std::string::npos) << said();  // no objective is of it
+  study.objective.minimise = {parse_metric("mean(pen.friction)")};
+  EXPECT_NE(said().find("under 0.2 N, driven with 200 V (peak) at 5 kHz, and for the pen \"POM "
+                        "tip\" under 1 N."),
+            std::string::npos)
+      << said();
+}
+
 TEST(BuildSheet, TellsHowEachLayerIsMade) {
   Searched run;
   Surface& surface = run.result.finalists[0].design.surface;
@@ -845,11 +905,43 @@ TEST(BuildSheet, TheLeadSaysThatBeliefBreaksLimits) {
 TEST(BuildSheet, OfAWishForLessTheWorthIsTheNumber) {
   Searched run;
   run.result.decision.absent = "";
-  run.result.decision.designs = {search::Prospect{}};
+  run.result.decision.designs = {search::Prospect{}, search::Prospect{}};
   run.result.decision.rule = {search::PickRule::Kind::Objective, 1};
   run.result.decision.best_worth = -280;
   const std::string said = as_read(decision_grounds(run.files()).front());
   EXPECT_NE(said.find(", which has 280 ("), std::string::npos) << said;
+}
+
+// Belief has nothing to choose of one design; how surely it keeps the limits is said.
+TEST(BuildSheet, OfOneDesignOnTheFrontSaysThatThereIsNothingToChoose) {
+  Searched run;
+  search::Prospect prospect;
+  prospect.p_best = 1;
+  prospect.p_limit = {1, 1, 1, 0.95};
+  prospect.p_limits = 0.95;
+  Decision& decision = run.result.decision;
+  decision.absent = "";
+  decision.designs = {prospect};
+  decision.p_best_by = {{1}, {1}};
+  decision.members = 32, decision.effective_members = 31.7;
+  const std::vector<std::string> sure = decision_grounds(run.files());
+  ASSERT_EQ(sure.size(), 1u);
+  EXPECT_TRUE(as_read(sure[0]).starts_with(
+      "How sure: design 01 is the one design on the front, so there is nothing to choose by "
+      "belief. It was judged at 32 members of it. With probability 95 % design 01 keeps every "
+      "limit"))
+      << as_read(sure[0]);
+  const std::string text = as_read(decision_text(run.files()));
+  EXPECT_NE(text.find("front/01 is the one design on the front, so there is nothing to choose. It "
+                      "was judged at 32 members of belief about finger and model (as good as 31.7 "
+                      "equal ones).\n\n| design | p(every limit) | p(min_hole) |"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("| front/01 | 95 % | 100 % |"), std::string::npos) << text;
+  for (const char* empty : {"p(best)", "regret", "overturn", "ranges"})
+    EXPECT_EQ(text.find(empty), std::string::npos) << empty << " in " << text;
+  EXPECT_NE(as_read(run_summary(run.files())).find("`best/` is front/01: the one design on the "),
+            std::string::npos);
 }
 
 // Members of belief judge the front alone: of a surface that is not on it nobody knows how sure it
@@ -861,7 +953,7 @@ TEST(BuildSheet, OfASurfaceBesideTheFrontSaysThatHowSureItIsWasNotJudged) {
   decision.rule = {search::PickRule::Kind::Objective, 0};
   decision.best_worth = 0.5;
   const auto said = [&] { return as_read(decision_grounds(run.files()).front()); };
-  EXPECT_TRUE(said().starts_with("How sure: of the 1 designs of the front design 01 is")) << said();
+  EXPECT_TRUE(said().starts_with("How sure: design 01 is the one design on the front")) << said();
   run.result.flat = score(0.49, 0.29, 0.2);
   ASSERT_EQ(advice_of(run.problem, run.result), Advice::Finish);
   const std::string not_judged =
@@ -886,6 +978,12 @@ TEST(BuildSheet, NamesNoLargerStepThanWasTried) {
   EXPECT_EQ(drift_text({1.77e-9, Drift::End::Limit, "min_wall"}, "nm"),
             "1.7 nm, then min_wall is reached");
   EXPECT_EQ(drift_text({1.77e-9, Drift::End::Loss}, "nm"), "1.7 nm");
+  Searched run;
+  run.result.sensitivity[1].up = {1.77e-9, Drift::End::Limit, "min_wall"};
+  const std::string sheet = as_read(sheet_text(run.files()));
+  EXPECT_NE(sheet.find("one dimension at a time: depth at most 1.7 nm up (min_wall"),
+            std::string::npos)
+      << sheet;
 }
 
 TEST(BuildSheet, ForProgramsIsInTheUnitsOfTheStudy) {
@@ -899,7 +997,8 @@ TEST(BuildSheet, ForProgramsIsInTheUnitsOfTheStudy) {
   EXPECT_EQ(json["driven"], true);
   EXPECT_EQ(json["remarks"].size(), 1u);
   EXPECT_EQ(json["finish"], "contact angle of water 70 deg (50 deg in the study file)");
-  expect_same(json["shown"]["mean(modulation)"], {{"scale", 1}, {"unit", ""}}, "shown");
+  expect_same(json["shown"]["mean(modulation)"], {{"scale", 1}, {"unit", ""}, {"decimals", 3}},
+              "shown");
   expect_same(
       json["sheet"][0],
       {{"name", "texture.period"},

@@ -121,8 +121,8 @@ TEST(UndrivenRun, WhatIsBuiltIsOnTheGridOfTheFab) {
   EXPECT_EQ(json["grid"], 20e-9);
   EXPECT_EQ(json["driven"], false);
   expect_same(json["shown"],
-              {{"mean(friction)", {{"scale", 1e3}, {"unit", "mN"}}},
-               {"variation(friction)", {{"scale", 1}, {"unit", ""}}}},
+              {{"mean(friction)", {{"scale", 1e3}, {"unit", "mN"}, {"decimals", nullptr}}},
+               {"variation(friction)", {{"scale", 1}, {"unit", ""}, {"decimals", 3}}}},
               "shown");
   const auto row = std::find_if(json["sheet"].begin(), json["sheet"].end(),
                                 [](const auto& r) { return r["name"] == "texture.depth"; });

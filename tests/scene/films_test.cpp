@@ -36,12 +36,12 @@ TEST(Films, TheLastPlanarLayerCarriesTheTexture) {
   s.dielectric = {layer(300e-9, LayerProcess::Planar), layer(200e-9, LayerProcess::Planar),
                   layer(50e-9, LayerProcess::Surface)};
   EXPECT_EQ(s.carrying_layer(), 1);
-  std::vector<Dielectric> thin = s.thinnest_layers(150e-9);
+  std::vector<Dielectric> thin = s.thinnest_layers({.deepest = 150e-9});
   ASSERT_EQ(thin.size(), 3u);
   EXPECT_DOUBLE_EQ(thin[0].thickness, 300e-9);
   EXPECT_NEAR(thin[1].thickness, 50e-9, 1e-20);
   EXPECT_DOUBLE_EQ(thin[2].thickness, 50e-9);
-  EXPECT_EQ(s.thinnest_layers(250e-9)[1].thickness, 0);  // never less
+  EXPECT_EQ(s.thinnest_layers({.deepest = 250e-9})[1].thickness, 0);  // never less
   s.process = FilmProcess::Planar;
   EXPECT_EQ(s.carrying_layer(), 2);
   s.dielectric.resize(1);
@@ -50,7 +50,7 @@ TEST(Films, TheLastPlanarLayerCarriesTheTexture) {
   s.process = FilmProcess::Conformal;
   s.dielectric[0].process = LayerProcess::Directional;
   EXPECT_EQ(s.carrying_layer(), -1);
-  EXPECT_EQ(s.thinnest_layers(150e-9)[0].thickness, 300e-9);
+  EXPECT_EQ(s.thinnest_layers({.deepest = 150e-9})[0].thickness, 300e-9);
   Surface bare;
   bare.dielectric = std::vector<FilmDielectric>{};
   EXPECT_EQ(bare.carrying_layer(), -1);
@@ -59,6 +59,47 @@ TEST(Films, TheLastPlanarLayerCarriesTheTexture) {
   EXPECT_EQ(s.equivalent_thickness(), 0);
   EXPECT_EQ(s.dielectric_thickness(), 0);
   EXPECT_TRUE(s.layers().empty());
+}
+
+// Eq. electrostatics.9: at the foot of a wall what the ellipse of a directional layer leaves, by
+// the wall's normal or, of a low one, by the place beside the film on the land.
+TEST(Films, DirectionalLayersAreThinOnWalls) {
+  Surface s;
+  s.process = FilmProcess::Directional;
+  const auto left = [&](const FilmGround& ground) {
+    return s.thinnest_layers(ground)[0].thickness / s.dielectric[0].thickness;  // 500 nm
+  };
+  EXPECT_EQ(left({}), 1);
+  EXPECT_EQ(left({.height = kInfinity}), 1);  // no slope is stated
+  EXPECT_EQ(left({.height = 500e-9, .steepest = 0.5 * kPi}), 0);
+  EXPECT_NEAR(left({.height = 350e-9, .steepest = 0.5 * kPi}), 0.3, 1e-12);
+  EXPECT_NEAR(left({.height = 2e-6, .steepest = kPi / 3}), 0.5, 1e-12);
+  s.step_coverage = 0.5;
+  EXPECT_NEAR(left({.height = 2e-6, .steepest = 0.5 * kPi}), 0.5, 1e-12);
+  EXPECT_NEAR(left({.height = 2e-6, .steepest = kPi / 4}), std::sqrt(0.5 + 0.25 * 0.5), 1e-12);
+  EXPECT_NEAR(left({.height = 100e-9, .steepest = 0.5 * kPi}), std::sqrt(0.64 + 0.25 * 0.36),
+              1e-12);
+  s.step_coverage = 1;
+  EXPECT_NEAR(left({.height = 2e-6, .steepest = 0.5 * kPi}), 1, 1e-12);
+}
+
+// Two directional layers are as thin on a wall as one of their sum; a conformal one beside them is
+// not thinner, and above a planar one the electrode has no walls.
+TEST(Films, OtherLayersBesideDirectionalOnesKeepTheirThickness) {
+  Surface s;
+  s.dielectric = {layer(100e-9, LayerProcess::Conformal), layer(200e-9, LayerProcess::Directional),
+                  layer(300e-9, LayerProcess::Directional)};
+  const FilmGround wall{.deepest = 250e-9, .height = 250e-9, .steepest = 0.5 * kPi};
+  std::vector<Dielectric> thin = s.thinnest_layers(wall);
+  EXPECT_EQ(thin[0].thickness, 100e-9);
+  EXPECT_NEAR(thin[1].thickness, 100e-9, 1e-18);
+  EXPECT_NEAR(thin[2].thickness, 150e-9, 1e-18);
+  s.dielectric[0].process = LayerProcess::Planar;
+  s.dielectric[0].thickness = 400e-9;
+  thin = s.thinnest_layers(wall);
+  EXPECT_NEAR(thin[0].thickness, 150e-9, 1e-18);
+  EXPECT_EQ(thin[1].thickness, 200e-9);
+  EXPECT_EQ(thin[2].thickness, 300e-9);
 }
 
 // Thermal oxide of 1e14 ohm m: 1 / (2 pi 8.854e-12 3.9 1e14) = 4.6e-5 Hz, and 500 nm of it 128 nm.

@@ -1,7 +1,10 @@
 // Tables of measured friction, right and wrong.
 #include "scene/measured_table.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <tuple>
 
 #include "tests/support/refusal.h"
 
@@ -87,6 +90,18 @@ TEST(MeasuredTable, RefusesWrongUnitsWithTheWayOut) {
   EXPECT_TRUE(says(refused(head + "flat,0.2,35,0,.142,.181\n"), "but the voltage is 0"));
   EXPECT_TRUE(says(refused("design,load_N,humidity_percent,F_of_N\nflat,0.2,35,0.1\n"),
                    "is it `F_off_N`?"));
+}
+
+// A bound in another unit than the cell's would say that 150 lies outside 0 to 1 %.
+TEST(MeasuredTable, SaysBoundsInTheUnitOfTheColumn) {
+  for (const auto& [head, cell, bounds] :
+       {std::tuple{"humidity_percent", "150", "150 lies outside 0 to 100 %"},
+        {"relative_humidity", "1.5", "1.5 lies outside 0 to 1 "},
+        {"load_mN", "2000000", "2000000 lies outside 0.001 to 100000 mN"},
+        {"voltage_kV", "200", "200 lies outside 0 to 100 kV"},
+        {"voltage_V", "200000", "200000 lies outside 0 to 100000 V"}})
+    EXPECT_TRUE(says(refused(fmt::format("design,{},F_off_N\nflat,{},0.1\n", head, cell)), bounds))
+        << head;
 }
 
 // Touches scatter by percent, whatever each states of itself.

@@ -171,8 +171,60 @@ TEST(Decision, AFrontOverBeliefHasWhatAMemberMayPrefer) {
   EXPECT_EQ(on_front(), (std::vector<bool>{true, false}));
   worse.few[2].score.worst *= 10;
   EXPECT_EQ(on_front(), (std::vector<bool>{true, true}));
-  worse.members.clear();  // not asked
+  // Without members it stays where its confirmed numbers put it.
+  worse.members.clear();
+  EXPECT_EQ(on_front(), (std::vector<bool>{true, true}));
+  worse.on_front = false;
   EXPECT_EQ(on_front(), (std::vector<bool>{true, false}));
+}
+
+// The members of the deeper designs take too long. The run goes on, by the numbers of the fit; so
+// does one that is resumed, whose journal has that answer.
+TEST(Decision, ATaskThatFailsAtTheMembersIsSaidAndEndsNoRun) {
+  const TaskFormula slow = [](const TaskRequest& r) {
+    return r.stage == Stage::Belief && r.unit[0] > 0.3
+               ? TaskAnswer::refused(TaskStatus::Kind::TimedOut, "took longer than 600 s")
+               : overturning(r);
+  };
+  BelievingRun a(believing(0.3), "decision_failed", slow);
+  const auto first = std::find_if(a.run.result.finalists.begin(), a.run.result.finalists.end(),
+                                  [](const FinalDesign& f) { return f.members.empty(); });
+  ASSERT_NE(first, a.run.result.finalists.end());
+  EXPECT_TRUE(first->on_front);
+  EXPECT_GT(first->unit[0], 0.3);
+  EXPECT_FALSE(a.decision().made());
+  const std::string& absent = a.decision().absent;
+  EXPECT_TRUE(absent.starts_with(first->folder + " has no answer at the members of belief ("))
+      << absent;
+  EXPECT_NE(absent.find(": took longer than 600 s), and --resume asks no task again"),
+            std::string::npos)
+      << absent;
+  EXPECT_NE(report::as_read(report::decision_text(a.files())).find(absent), std::string::npos);
+
+  std::vector<TaskRequest> asked;
+  const OptimiseOptions options{.folder = a.options.folder, .resume = true, .progress = {}};
+  search::Run again(a.study, options, a.mpi, std::make_unique<FormulaWorker>(slow, asked));
+  search_designs(again);
+  narrow(again);
+  confirm(again);
+  check(again);
+  EXPECT_TRUE(asked.empty());
+  EXPECT_EQ(again.result.decision.absent, absent);
+}
+
+TEST(Decision, SaysWhichDesignBehindTheFrontHasNoMembers) {
+  BelievingRun a(0.3, "decision_unjudged");
+  ASSERT_TRUE(a.decision().made());
+  const auto text = [&] { return report::as_read(report::decision_text(a.files())); };
+  EXPECT_EQ(text().find("has no answer at the members"), std::string::npos);
+  FinalDesign behind = a.best();
+  behind.on_front = false;
+  behind.members.clear();
+  behind.unjudged = "finger 1: ran out of memory";
+  a.run.result.finalists.push_back(behind);
+  EXPECT_NE(text().find("it has no answer at the members (finger 1: ran out of memory)."),
+            std::string::npos)
+      << text();
 }
 
 // By the fit all designs have the same variation, members tell them apart by .4 and .2 a unit of
@@ -208,6 +260,39 @@ TEST(Decision, TheKneeDividesByWhatDesignsDifferByOverBelief) {
             std::string::npos);
   EXPECT_NEAR(report::decision_json(a.files())["ranges"]["variation(modulation)"].get<double>(),
               d.ranges[1].width, 1e-12);
+}
+
+// A voltage that is searched has no samples of single skins: "over skins" is said of what has them.
+TEST(Decision, SaysOverSkinsOnlyOfWhatHasSamplesOfThem) {
+  const auto skinned = [](bool worst) {
+    return [worst](const TaskRequest& r) {
+      TaskAnswer out = overturning(r);
+      const auto add = [&](TaskAnswer& a) {
+        ErrorSamples mean;
+        mean.sampling.assign(4, a.objectives[0].value);
+        a.samples = {{mean}, {ErrorSamples{}}};  // none of the variation
+        if (worst) a.worst_samples.sampling.assign(4, a.worst);
+      };
+      if (r.stage != Stage::Belief) add(out);
+      for (TaskAnswer& member : out.members) add(member);
+      return out;
+    };
+  };
+  const BelievingRun with(believing(0.3), "decision_skins", skinned(true)),
+      without(believing(0.3), "decision_no_skins", skinned(false));
+  EXPECT_NE(
+      grounds_of(with).find("open) and over skins, without errors of the grid and of what all"),
+      std::string::npos)
+      << grounds_of(with);
+  const std::string said = grounds_of(without);
+  EXPECT_NE(said.find("open), without what skins leave open of the worst modulation, of which "
+                      "single skins are not known, and without errors of the grid"),
+            std::string::npos)
+      << said;
+  const std::string text = report::as_read(report::decision_text(with.files()));
+  EXPECT_NE(text.find(" Probabilities in variation(modulation) are over the members alone: "),
+            std::string::npos)
+      << text;
 }
 
 TEST(Decision, AHypothesisOfEnoughWeightOverturnsTheNumbersOfTheFit) {
@@ -585,7 +670,7 @@ TEST(Decision, AYieldIsDrawnOfEachMemberOnce) {
   study.constraints = {read_constraint("min_wall", 1e-9), read_constraint("yield", 0.9)};
   const StudyProblem problem(study);
   TaskAnswer there = at(0, 0, 0.3);
-  there.worst_samples = {0.27, 0.33};
+  there.worst_samples.sampling = {0.27, 0.33};
   FinalDesign f;
   f.design = study.design;
   f.answers.assign(problem.tasks().size(), at(0, 0, 0.4));
@@ -609,12 +694,58 @@ TEST(Decision, AYieldIsDrawnOfEachMemberOnce) {
   EXPECT_NEAR(worth.worth.at(0).at(0), 0.4 * 0.3 / 0.2, 1e-12);
 }
 
+// Scatter of fabrication moves a member that has an answer; one that has none stays without.
+TEST(Decision, AMemberWithoutAnAnswerHasNoneWhereNumbersScatter) {
+  Study study = believing(0.3);
+  study.scatter = {{"texture.depth", 20e-9}};
+  const StudyProblem problem(study);
+  FinalDesign f;
+  f.design = study.design;
+  f.answers.assign(problem.tasks().size(), at(0, 0, 0.4));
+  ASSERT_GT(f.answers.size(), problem.nominal_tasks());
+  f.confirmed = problem.score(f.design, f.answers);
+  TaskAnswer few;
+  few.members = {at(0, 0, 0.3), TaskAnswer::refused(TaskStatus::Kind::NoEquilibrium, "pulled in"),
+                 at(0, 0, 0.1), at(0, 0, 0.2)};
+  add_members(problem, {few}, f);
+  EXPECT_TRUE(f.members.at(0).ok);
+  EXPECT_FALSE(f.members.at(1).ok);
+  EXPECT_TRUE(f.few.at(0).score.ok);
+  EXPECT_FALSE(f.few.at(1).score.ok);
+  EXPECT_NE(f.few[1].score.reason.find("pulled in"), std::string::npos) << f.few[1].score.reason;
+}
+
+// What few skins leave open of the correction to the 3-D field moves each design by itself.
+TEST(Decision, TheFieldOfADesignMovesItsWorthAsOneMoreSkin) {
+  const StudyProblem problem(believing(0.3));
+  const auto design = [&](double worst, double correction) {
+    TaskAnswer confirmed = at(0, 0, worst);
+    const FieldPart field{0.02, 0.03, {correction}, 0.03};
+    confirmed.samples = {{{{}, {}, {}, field}}, {{{}, {}, {}, {}}}};
+    confirmed.worst_samples.field = field;
+    const TaskAnswer few = at(0, 0, 0.2);
+    FinalDesign f = with_members(problem, confirmed, {few, few, few, few});
+    f.confirmed = problem.score(f.design, {confirmed});
+    return f;
+  };
+  const FinalDesign first = design(0.4, -0.3), other = design(0.3, -0.1), twin = design(0.4, -0.3);
+  EXPECT_NEAR(first.confirmed_by_field.worst, 0.43, 1e-12);
+  const MemberWorth worth =
+      member_worth(problem, {first, other, twin}, decision_rule(problem, ""), {});
+  for (std::size_t m = 0; m < 3; ++m) {
+    const auto moves = [&](std::size_t i) { return worth.by_skin[i][m]; };
+    EXPECT_NEAR(std::hypot(moves(1)[0], moves(1)[1]), 0.03, 1e-9);
+    EXPECT_NEAR(moves(0)[0] * moves(1)[0] + moves(0)[1] * moves(1)[1], 0, 1e-9);
+    EXPECT_EQ(moves(0), moves(2));  // the same field is off alike
+  }
+}
+
 // A skin moves a member by what it moves of its worst modulation alone.
 TEST(Decision, ASkinMovesAMemberByItsOwnSamples) {
   const Study study = believing(0.3);
   const StudyProblem problem(study);
   TaskAnswer confirmed = at(0, 0, 0.4), own = at(0, 0, 0.2), there = at(0, 0, 0.3);
-  there.worst_samples = {0.27, 0.33, 0.3, 0.3};
+  there.worst_samples.sampling = {0.27, 0.33, 0.3, 0.3};
   FinalDesign f = with_members(problem, confirmed, {there, own});
   f.confirmed = problem.score(f.design, {confirmed});
   ASSERT_EQ(f.few.at(0).by_skin.size(), 4u);

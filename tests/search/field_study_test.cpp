@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "forward/forward.h"
+#include "numerics/statistics.h"
 #include "report/results.h"
 #include "search/levels.h"
 #include "search/problem.h"
@@ -70,6 +72,7 @@ TEST(FieldStudy, TheStrongestModulationKeepsTheMarginOfTheOxide) {
       EXPECT_GT(point["over_limit_share"].get<double>(), 0);
       EXPECT_LE(point["over_limit_share"].get<double>(), 1);
       EXPECT_GE(point["oxide_margin"].get<double>(), 2 * (1 - 1e-9));
+      EXPECT_GE(point["bridged_margin"].get<double>(), 2 * (1 - 1e-9));
     }
   }
   EXPECT_TRUE(feasible);
@@ -95,6 +98,57 @@ TEST(FieldStudy, VoltageForIsAnObjectiveAndAConstraint) {
   EXPECT_EQ(outcome.constraints.size(), 2u);
   EXPECT_EQ(outcome.constraints[0] <= 0, score.limited[0] <= 60);
   EXPECT_LT(outcome.constraints[1], 0);
+}
+
+// So that designs which a skin moves alike are told apart by it: the confirmed answer has the
+// voltage skin by skin. Eq. search.15
+TEST(FieldStudy, AConfirmedVoltageHasItsSkins) {
+  const Study study =
+      read_study(study_file("skins",
+                            "[drive]\namplitude = \"150 V\"\n"
+                            "[design_space]\n\"texture.depth\" = [\"0 nm\", \"500 nm\"]\n"
+                            "[objective]\nminimise = \"worst(voltage_for(modulation = 0.3))\"\n"));
+  const StudyProblem problem(study);
+  const TaskAnswer task = evaluate_task(problem, study.design, 0, {small(), true});
+  ASSERT_TRUE(task.status.ok()) << task.status.text;
+  const std::vector<double>& skins = task.samples.at(0).at(0).sampling;
+  ASSERT_EQ(skins.size(), 2u);
+  EXPECT_NEAR(mean_estimate(skins).value, task.objectives[0].value,
+              1e-9 * task.objectives[0].value);
+  EXPECT_GT(mean_estimate(skins).se, 0);
+  EXPECT_LE(mean_estimate(skins).se, task.objectives[0].error);
+}
+
+// Members are run on few skins, without control skins: what is felt there takes the error of the
+// modulation that the confirmation states, in proportion.
+TEST(FieldStudy, WhatIsFeltAtAMemberIsKnownAsTheConfirmedModulationIs) {
+  const fs::path belief = temporary("felt_belief.toml");
+  std::ofstream(belief) << "schema_version = 1\n[[member]]\nweight = 1\nhypothesis = \"weak\"\n"
+                           "set = { \"macro.shear_strength\" = \"8 MPa\" }\n";
+  Study study = read_study(study_file("felt",
+                                      "[drive]\namplitude = \"150 V\"\n"
+                                      "[design_space]\n\"texture.depth\" = [\"0 nm\", \"500 nm\"]\n"
+                                      "[objective]\nmaximise = \"mean(modulation)\"\n"));
+  study.design.finger.belief = belief.string();
+  Fidelity f = small();
+  f.grid = 32;
+  f.control_skins = 2;
+  const Measured known =
+      evaluate(scene_of(study.design), study.design.texture, f).points.at(0).modulation;
+  study.objective.maximise = {{Summary::Mean, Felt{known.value}}};
+  const StudyProblem problem(study);
+  const double relative = known.se() / known.value;
+  const TaskAnswer answer = evaluate_steps(problem, study.design, 0, {f, true});
+  ASSERT_EQ(answer.members.size(), 2u);  // the last is the finger as it is
+  for (const TaskAnswer& there : answer.members) {
+    ASSERT_TRUE(there.status.ok()) << there.status.text;
+    const double m = there.worst;  // of the one humidity
+    EXPECT_NEAR(there.objectives.at(0).value, normal_cdf((m - known.value) / (relative * m)), 1e-9);
+  }
+  Study plain = study;
+  plain.objective.maximise = {{Summary::Mean, kModulation}};
+  EXPECT_NEAR(task_price(problem, Stage::Belief) - task_price(StudyProblem(plain), Stage::Belief),
+              task_price(problem, Stage::Confirm), 1e-9 * task_price(problem, Stage::Confirm));
 }
 
 // 500 nm of 1 GV/m break down at 500 V: over the voltage that is asked for, not over the design's.

@@ -123,7 +123,7 @@ TEST(StudyProblem, FingersOfOneUncertaintyMoveTogether) {
     const Design design = problem.space().design(problem.space().unit_of_study());
     Score alone;
     problem.add_steps(
-        alone, {evaluate_steps(problem, design, 0, f), evaluate_steps(problem, design, 1, f)});
+        alone, {evaluate_steps(problem, design, 0, {f}), evaluate_steps(problem, design, 1, {f})});
     EXPECT_EQ(alone.parameter_steps, same.parameter_steps);
   }
 

@@ -582,6 +582,15 @@ TEST(Samples, OfTheWorstHumidityAreItsOwn) {
   // Variance of the mean of three; mean and error of two in squares; their difference.
   const double sampling = (0.04 + 0.01 + 0.09) / 6, grid = 4e-4 + 1e-4, method = 9e-6 - 1e-6;
   EXPECT_NEAR(score.errors[0], std::sqrt(sampling + grid + method), 1e-12);
+  // So does what their corrections to the 3-D field leave open.
+  answer.samples[0][0].field = {0.02, 0.03, {-0.1}, 0.03};
+  answer.samples[0][1].field = {0.01, 0.02, {-0.2}, 0.04};
+  const Score corrected = problem.score(problem.study().design, {answer});
+  EXPECT_NEAR(corrected.samples[0].field.common, 0.01, 1e-12);
+  EXPECT_NEAR(corrected.samples[0].field.own, 0.02, 1e-12);
+  EXPECT_EQ(corrected.samples[0].field.corrections, (std::vector<double>{-0.1, -0.2}));
+  EXPECT_NEAR(corrected.samples[0].field.of_skins, std::sqrt((9e-4 + 16e-4) / 2), 1e-12);
+  EXPECT_NEAR(corrected.errors[0], std::sqrt(sampling + grid + method + 5e-4), 1e-12);
   // Tasks of unlike numbers of skins have none in common.
   answer.samples[0][0].sampling.pop_back();
   const Score unlike = problem.score(problem.study().design, {answer});

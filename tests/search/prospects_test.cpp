@@ -111,6 +111,33 @@ TEST(Prospects, SayWhatSkinsWithoutEndWouldLeave) {
   EXPECT_EQ(settled_skins(known, {}, 0).regret, prospects(known, {})[0].regret);
 }
 
+// One more skin a design, by what members scale the worth; of two that are off alike one for both.
+TEST(Prospects, FieldsThatFewSkinsTellMoveDesignsApart) {
+  MemberWorth d = worth_of({1, 1}, {{2, 4}, {2, 2}, {2, 2}});
+  d.by_skin = {{{0.5}, {0.5}}, {{0.5}, {0.5}}, {{}, {}}};
+  const std::vector<WorthBySkin> confirmed(3, {2, {}});
+  add_field_moves(confirmed, {0.1, 0.2, 0.2}, {{1, 0, 0.6}, {0, 1, 0.8}, {0.6, 0.8, 1}}, true, d);
+  const auto expect_near = [&](std::size_t i, std::size_t m, const std::vector<double>& moves) {
+    ASSERT_EQ(d.by_skin[i][m].size(), moves.size());
+    for (std::size_t s = 0; s < moves.size(); ++s)
+      EXPECT_NEAR(d.by_skin[i][m][s], moves[s], 1e-12) << i << m << s;
+  };
+  expect_near(0, 0, {0.5, 0.1, 0, 0});
+  expect_near(0, 1, {0.5, 0.2, 0, 0});  // worth twice as much there
+  expect_near(1, 0, {0.5, 0, 0.2, 0});
+  expect_near(2, 0, {0, 0.12, 0.16, 0});  // no error of its own is left
+  // Two of equal worth: each is the best half of the time; without any error both always are.
+  MemberWorth pair = worth_of({1}, {{1}, {1.01}});
+  pair.by_skin = {{{}}, {{}}};
+  EXPECT_EQ(prospects(pair, {})[1].p_best, 1);
+  add_field_moves({{1, {}}, {1.01, {}}}, {0.1, 0.1}, {{1, 0}, {0, 1}}, false, pair);
+  EXPECT_NEAR(prospects(pair, {})[1].p_best, 0.53, 0.1);
+  MemberWorth none = worth_of({1}, {{1}, {2}});
+  none.by_skin = {{{0.1}}, {{0.1}}};
+  add_field_moves({{1, {}}, {2, {}}}, {0, 0}, {{1, 0}, {0, 1}}, false, none);
+  EXPECT_EQ(none.by_skin, (std::vector<Matrix>{{{0.1}}, {{0.1}}}));  // no field, no error of it
+}
+
 TEST(Prospects, MovesAreShrunkByWhatSkinsScatterThemBy) {
   const std::vector<WorthBySkin> own = {{1, {0, 0.1}}, {2, {0, 0.1}}, {3, {0, 0.1}}};
   const auto shrunk = [&](double scatter) {
@@ -220,6 +247,21 @@ TEST(Prospects, WhereNoneIsSureEnoughTheBestOfTheSurestIsChosen) {
   // What skins leave open of the worth makes no more members of them.
   d.by_skin.assign(3, {kMembers, {0.1, -0.1}});
   EXPECT_NEAR(prospects(d, {})[2].less_sure, p[2].less_sure, 1e-9);
+  // Nor do draws of members, of their own worth each.
+  MemberWorth drawn = worth_of({}, {{}, {}, {}});
+  drawn.kept.assign(3, std::vector<std::vector<bool>>(1));
+  for (std::size_t m = 0; m < kMembers; ++m) {
+    for (int draw = 0; draw < 8; ++draw) {
+      drawn.weights.push_back(0.125);
+      drawn.draw_of.push_back(m);
+      for (std::size_t i = 0; i < 3; ++i) {
+        drawn.worth[i].push_back(d.worth[i][m] + 0.01 * draw);
+        drawn.kept[i][0].push_back(d.kept[i][0][m]);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(prospects(drawn, {})[i].less_sure, p[i].less_sure, 1e-9);
 }
 
 TEST(Prospects, ADesignWithoutAnAnswerIsTheLeastOfTheOthersThere) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/files.h"
 #include "optim/pareto.h"
 #include "search/levels.h"
 #include "tests/search/formula_run.h"
@@ -284,6 +285,20 @@ TEST(RunDecisions, WhatDecidesTheResultIsInTheKeyOfTheJournal) {
   }
   study.search.evaluations = 99, study.search.time = 5, study.search.jobs = 3;
   EXPECT_FALSE(all.insert(identity(study)).second);
+}
+
+// By its content: a copy, or a map that was written once more, continues the run.
+TEST(RunDecisions, WhatIsInAMapIsInTheKeyOfTheJournal) {
+  Study study = two_variables(12);
+  const std::string file = temporary("map_in_journal_key.npy");
+  study.design.finger.skin.map = file;
+  const auto identity = [&](const std::string& bytes) {
+    write_bytes(file, bytes);
+    return StudyProblem(study).identity();
+  };
+  const std::string first = identity("one map");
+  EXPECT_NE(first, identity("another"));
+  EXPECT_EQ(first, identity("one map"));
 }
 
 }  // namespace

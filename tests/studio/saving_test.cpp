@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/units.h"
+#include "config/describe.h"
 #include "geometry/io/files.h"
 #include "studio/files.h"
 #include "tests/io/instrument_bytes.h"
@@ -224,9 +225,41 @@ TEST_F(Saving, ABaseIsNamedFromTheFolderOfItsFile) {
   const std::string own = place_.path() / "sub/mine.toml";
   EXPECT_EQ(save({own, {{"drive.amplitude", "120 V"}}}, "copy.toml"),
             "schema_version = 1\nbase = \"sub/mine.toml\"\n\n[drive]\namplitude = \"120 V\"\n");
-  // From beside it would lead out of what a file may stand on; nothing is left of the attempt.
-  EXPECT_THROW(save({own, {{"drive.amplitude", "110 V"}}}, "other/copy.toml"), InputError);
-  EXPECT_TRUE(fs::is_empty(place_.path() / "other"));
+}
+
+// A file stands on none above its folder: there it has every value, of a study also its search.
+TEST_F(Saving, WritesTheWholeDesignWhereItsBaseWouldLieAboveIt) {
+  save({shipped_, {{"texture.depth", "262 nm"}}}, "two.toml");
+  const std::string two = place_.path() / "two.toml";
+  const std::string text = save({two, {{"drive.amplitude", "120 V"}}}, "sub/new.toml");
+  EXPECT_EQ(text.find("base = "), std::string::npos) << text;
+  EXPECT_NE(text.find("depth = \"262 nm\""), std::string::npos) << text;
+  fs::remove(two);
+  EXPECT_DOUBLE_EQ(
+      get_number(read_design((place_.path() / "sub/new.toml").string()), "drive.amplitude"), 120);
+  write_bytes(place_.path() / "study.toml",
+              read_bytes(PAPILLA_DESIGNS_DIR "/hydrophobic_glass/study.toml"));
+  save({place_.path() / "study.toml", {{"drive.amplitude", "120 V"}}}, "other/study.toml");
+  EXPECT_TRUE(read_study((place_.path() / "other/study.toml").string()).is_study());
+}
+
+// A list that was set as a whole, in the place of its sections.
+TEST_F(Saving, AListStandsInThePlaceOfItsSections) {
+  const std::string file = place_.path() / "mine.toml";
+  write_bytes(file,
+              "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n\n[[surface.dielectric]]\n"
+              "material = \"SiO2\"\nthickness = \"1 um\"\n[surface.dielectric.relaxation]\n"
+              "law = \"debye\"\ntime = \"1 us\"\n\n# air\n[environment]\n"
+              "relative_humidity = [\"35 %\"]\n");
+  const Design design = read_design(file);
+  Design thick = design;
+  thick.surface.dielectric.push_back(thick.surface.dielectric.front());
+  const std::string text = save({file, changes_between(design, thick)}, "mine.toml");
+  EXPECT_EQ(text.find("[["), std::string::npos) << text;
+  EXPECT_NE(text.find("\n# air\n[environment]\nrelative_humidity = [\"35 %\"]\n"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(read_design(file), thick);
 }
 
 TEST_F(Saving, RefusesNamesOutsideAndFilesThatAreThere) {
@@ -352,10 +385,10 @@ TEST_F(Saving, AScanIsADraftOfWhatWasAskedOfIt) {
       gsf{"texture.file", '"' + folder + "map.gsf\""},
       npy{"texture.file", '"' + folder + "map.npy\""};
   EXPECT_EQ(changes("scans/map.gsf", "", false, false),
-            (std::vector<studio::Change>{voltage, type, gsf, {"texture.patch", "8 um"}}));
+            (std::vector<studio::Change>{voltage, type, gsf, {"texture.patch", "6.66 um"}}));
   EXPECT_EQ(changes("scans/map.gsf", "", true, false),
             (std::vector<studio::Change>{
-                voltage, type, gsf, {"texture.fill", "true"}, {"texture.patch", "8 um"}}));
+                voltage, type, gsf, {"texture.fill", "true"}, {"texture.patch", "6.66 um"}}));
   EXPECT_EQ(changes("scans/map.npy", "12 um", false, true),
             (std::vector<studio::Change>{voltage,
                                          type,
@@ -367,10 +400,10 @@ TEST_F(Saving, AScanIsADraftOfWhatWasAskedOfIt) {
   EXPECT_THROW(changes("scans/map.npy", "1 V", false, true), InputError);
 }
 
-// The whole map where it is small, of its shorter side; else a square of 24 um.
-TEST_F(Saving, APatchOfAScanIsAsLargeAsTheScanAtMost24um) {
+// As much of a small map as leaves room for the seam, of its shorter side; else a square of 24 um.
+TEST_F(Saving, APatchOfAScanLeavesRoomForItsSeamAndIs24umAtMost) {
   for (const auto& [lx, ly, expected] :
-       {std::tuple{12e-6, 6e-6, 6e-6}, {6e-6, 12e-6, 6e-6}, {30e-6, 48e-6, 24e-6}}) {
+       {std::tuple{12e-6, 6e-6, 5e-6}, {6e-6, 12e-6, 5e-6}, {30e-6, 48e-6, 24e-6}}) {
     Heightmap map{{static_cast<int>(std::lround(lx / 0.5e-6)),
                    static_cast<int>(std::lround(ly / 0.5e-6)), lx, ly},
                   {}};

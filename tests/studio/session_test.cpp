@@ -449,18 +449,75 @@ TEST(Session, StaysAsItWasWhereItsFileCannotBeSaved) {
 
 TEST(Changes, MakeOneDesignOfAnother) {
   const Design from = read_design(kHoles);
-  for (const char* other : {"/m3_samples/flat.toml", "/texture_families/study.toml",
-                            "/hydrophobic_glass/study.toml", "/coatings/crowded.toml"}) {
+  for (const char* other :
+       {"/m3_samples/flat.toml", "/texture_families/study.toml", "/hydrophobic_glass/study.toml",
+        "/coatings/crowded.toml", "/two_level_glass/study.toml"}) {
     const Design to = read_design(std::string(PAPILLA_DESIGNS_DIR) + other);
-    std::vector<std::string> settings;
-    for (const studio::Change& c : changes_between(from, to)) {
-      if (!c.path.starts_with("surface.dielectric")) settings.push_back(c.setting());
-    }
-    const Design made = read_design(kHoles, settings);
-    EXPECT_EQ(made.texture, to.texture) << other;
-    EXPECT_EQ(made.drive, to.drive) << other;
-    EXPECT_EQ(made.finger.load, to.finger.load) << other;
+    EXPECT_EQ(study_of({kHoles, changes_between(from, to)}).design, to) << other;
   }
+}
+
+// The design of a study, without the study: fewer parts than that varies would be refused.
+std::string two_levels(const TemporaryFolder& place) {
+  const std::string file = (place.path() / "levels.toml").string();
+  write_design(file, read_design(PAPILLA_DESIGNS_DIR "/two_level_glass/study.toml"));
+  return file;
+}
+
+// What is not there has no key: a list with other items is set as a whole. Options of the model
+// that nobody set follow the finger.
+TEST(Changes, SayListsOfOtherItemsAndOtherDefaults) {
+  const TemporaryFolder place;
+  const std::string levels = two_levels(place);
+  const Design from = read_design(levels);
+  Design fewer = from, more = from, kinds = from, depth = from, fitted = from;
+  const auto parts = [](Design& design) -> std::vector<Texture>& {
+    return *roles(design.texture).parts;
+  };
+  ASSERT_EQ(parts(fewer).size(), 2u);
+  parts(fewer).pop_back();
+  more.surface.dielectric.push_back(more.surface.dielectric.front());
+  Grating grooves;
+  grooves.period = 2e-6, grooves.width = 1e-6;
+  parts(kinds).back() = Texture{grooves};
+  depth.surface.dielectric.front().thickness = 700e-9;
+  fitted.finger.calibrated_for.water = WaterModel::Threshold;
+  for (const auto& [to, changed] : {std::pair{&fewer, "texture.parts"},
+                                    {&more, "surface.dielectric"},
+                                    {&kinds, "texture.parts"},
+                                    {&depth, "surface.dielectric.0.thickness"}}) {
+    const std::vector<studio::Change> changes = changes_between(from, *to);
+    ASSERT_EQ(changes.size(), 1u) << changed;
+    EXPECT_EQ(changes.front().path, changed);
+    EXPECT_EQ(study_of({levels, changes}).design, *to) << changed;
+  }
+  const std::vector<studio::Change> changes = changes_between(from, fitted);
+  EXPECT_TRUE(std::any_of(changes.begin(), changes.end(), [](const studio::Change& c) {
+    return c == studio::Change{"model.water", "droplets"};
+  }));
+}
+
+// The form knows the items of such a list as changed, and each of them takes the list back.
+TEST(Session, TakesAListThatWasSetAsAWholeBackAsAWhole) {
+  const TemporaryFolder place;
+  const std::string levels = two_levels(place);
+  Session session(place.path(), levels);
+  const Design before = session.view().study.design;
+  Design fewer = before;
+  std::vector<Texture>* parts = roles(fewer.texture).parts;
+  parts->pop_back();
+  session.become({levels, changes_between(before, fewer)});
+  EXPECT_EQ(session.view().steps, std::vector<std::string>{"parts changed"});
+  const SessionView view = session.view();
+  for (const auto& row : form_json(view.study, view.opened, view.draft.changes)) {
+    const bool part = row["path"].get<std::string>().starts_with("texture.parts.");
+    EXPECT_EQ(row["changed"], part) << row["path"];
+    EXPECT_EQ(row["place"] == "changed here", part) << row["path"];
+  }
+  session.set("texture.parts.0.depth", "90 nm", 0);
+  session.reset("texture.parts.0.depth");
+  EXPECT_EQ(session.view().draft.changes, std::vector<studio::Change>{});
+  EXPECT_EQ(session.view().study.design, before);
 }
 
 TEST(Form, NamesEveryNumberWithItsUnitAndRange) {

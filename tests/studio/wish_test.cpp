@@ -14,6 +14,7 @@
 #include "optim/journal.h"
 #include "search/protocol.h"
 #include "search/records.h"
+#include "studio/files.h"
 #include "studio/first_answer.h"
 #include "studio/search_desk.h"
 #include "tests/support/refusal.h"
@@ -448,7 +449,20 @@ TEST_F(LeftSearch, ShowsWhatWasFound) {
             Json::parse(R"json({"state":"paused","number":3,"numbers":[3],"folder":"searches/003",
       "stage":"search","done":4,"total":12,"trouble":"","progress":null,
       "variables":[{"path":"texture.depth","unit":"nm"}],"fingers":["reference"],
-      "objectives":[{"name":"mean(modulation)","maximise":true}],"front":[3],"confirmed":[]})json"));
+      "objectives":[{"name":"mean(modulation)","maximise":true,"scale":1.0,"unit":""}],
+      "front":[3],"confirmed":[]})json"));
+}
+
+// Values are told in SI, as in its files: with them how people read them.
+TEST_F(LeftSearch, TellsTheUnitsOfWhatIsWanted) {
+  std::string text = read_bytes(folder_ / "study.toml");
+  const std::string wanted = "\"mean(modulation)\"";
+  ASSERT_NE(text.find(wanted), std::string::npos) << text;
+  text.replace(text.find(wanted), wanted.size(), "\"mean(friction)\"");
+  write_bytes(folder_ / "study.toml", text);
+  journal_ = head();
+  EXPECT_EQ(json()["objectives"], Json::parse(R"json([{"name":"mean(friction)","maximise":true,
+      "scale":1e3,"unit":"mN"}])json"));
 }
 
 TEST_F(LeftSearch, SaysHowFarItCame) {
@@ -573,6 +587,63 @@ TEST_F(LeftSearch, GivesItsDesigns) {
   EXPECT_EQ(desk.design_of("front/01"),
             (Draft{kHoles, {{"texture.depth", "300 nm"}, {"drive.amplitude", "100 V"}}}));
   EXPECT_THROW(desk.design_of("front/../front/01"), InputError);
+}
+
+// A design of two parts that a search began with, and one on its front that has one of them.
+class FewerParts : public ::testing::Test {
+ protected:
+  explicit FewerParts(const std::string& sections = "") {
+    std::filesystem::create_directories(folder_ / "front/01");
+    write_bytes(file_,
+                "schema_version = 1\nbase = \"m3_samples/common.toml\"\n\n[texture]\n"
+                "type = \"stack\"\n\n[[texture.parts]]  # coarse\ntype = \"waves\"\n"
+                "period = \"6 um\"\ndepth = \"100 nm\"\n\n[[texture.parts]]\n"
+                "type = \"waves\"\nperiod = \"3 um\"\ndepth = \"50 nm\"\n\n"
+                "# dry\n[drive]\namplitude = \"120 V\"\n" +
+                    sections);
+    one_ = read_design(file_);
+    std::vector<Texture>* parts = roles(one_.texture).parts;
+    parts->pop_back();
+    write_design((folder_ / "front/01/design.toml").string(), one_);
+    write_bytes(folder_ / "study.toml", study_text(read_study(kHoles), depth_wish()));
+    write_bytes(folder_ / "origin.json", Json{{"file", file_}, {"changes", Json::array()}}.dump());
+    write_bytes(folder_ / "journal", "");
+  }
+
+  const TemporaryFolder place_;
+  const std::filesystem::path folder_ = place_.path() / "searches/001";
+  const std::string file_ = (place_.path() / "two.toml").string();
+  Design one_;
+};
+
+// The part that is not there is neither shown nor saved.
+TEST_F(FewerParts, AreThoseOfThePickedDesign) {
+  const SearchDesk desk(place_.path(), "none", [] {});
+  const Draft draft = desk.design_of("front/01");
+  ASSERT_EQ(draft.changes.size(), 1u);
+  EXPECT_EQ(draft.changes.front().path, "texture.parts");
+  EXPECT_EQ(study_of(draft).design, one_);
+  const Files files(place_.path());
+  files.save(draft, study_of(draft), files.target("two.toml", true));
+  EXPECT_EQ(read_design(file_), one_);
+  EXPECT_NE(read_bytes(file_).find("\n# dry\n[drive]\namplitude = \"120 V\"\n"), std::string::npos)
+      << read_bytes(file_);
+}
+
+class FewerPartsOfAStudy : public FewerParts {
+ protected:
+  FewerPartsOfAStudy()
+      : FewerParts(
+            "\n[design_space]\n\"texture.levels\" = { choice = [1, 2] }\n\n[objective]\n"
+            "maximise = \"mean(modulation)\"\n") {}
+};
+
+// A study that varies two parts is none with one of them.
+TEST_F(FewerPartsOfAStudy, AreRefusedWithTheFileThatHasThem) {
+  const SearchDesk desk(place_.path(), "none", [] {});
+  const std::string why = refusal_of([&] { desk.design_of("front/01"); });
+  EXPECT_TRUE(why.starts_with("no changes of two.toml make this design: ")) << why;
+  EXPECT_NE(why.find("open searches/001/front/01/design.toml itself"), std::string::npos) << why;
 }
 
 // `optimize` that is ended by a signal leaves files, run.json too, and a journal without an end.

@@ -48,6 +48,14 @@ T clipped_share(const T& x, bool steady) {
   return chosen(x < T(1), share, T(1));
 }
 
+// Share of a voltage that stands on a film of which the gap takes a share of its free field alone:
+// what it cannot take stands on the film. free: the share by their divider; held: the field that
+// the film allows over the free one, peaks, at most 1. Eq. electrostatics.22
+template <class T>
+T share_on_film(const T& free, const T& held) {
+  return 1 - held * (1 - free);
+}
+
 // How much a convex edge of radius r [m] raises the field in a conformal dielectric of thickness d
 // [m]: (d/r)/ln(1 + d/r), a coaxial cylinder; 1 for a flat, infinite for a sharp edge.
 // Eq. electrostatics.8

@@ -142,16 +142,24 @@ class ColumnLaw {
     }
     of_film2 = chosen(bridge, dry * dry * per_film2, of_film2) * square(p_.film_phase);
     of_film2 = smaller(of_film2, per_film2);
+    // A film that saturates leaves the air no more than this. Eq. electrostatics.22
+    const T air2 = smaller(T(most2_), field2);
+    if (p_.film_holds < kInfinity) {
+      // Under water by the flux that the film itself has.
+      const T held2 = smaller(most2_ / chosen(bridge, of_film2, field2), T(1));
+      const T on_film = share_on_film(c.film * root(of_film2), root(held2));
+      of_film2 = on_film * on_film * per_film2;
+    }
     out.film_field2 = chosen((pulls || bridge) && film, of_film2, 0.0);
     const auto with_air = pulls && c.air > 0.0;
-    out.air_field2 = chosen(with_air, field2, 0.0);
+    out.air_field2 = chosen(with_air, air2, 0.0);
     // No gap breaks down below either; up to that of the minimum they are the whole law.
     const T limit = smaller(kAirStrength * c.air, kPaschenMinimum), across = p_.v_peak * c.air;
-    const auto beyond = with_air && across * across * field2 > limit * limit;
+    const auto beyond = with_air && across * across * air2 > limit * limit;
     const auto lasts = holds_for(
         beyond && c.air > kPaschenGap,
         [&](double air, double squared) { return !breaks_down(p_.v_peak, air, squared); }, c.air,
-        field2);
+        air2);
     out.over_limit = chosen(beyond && !lasts, 1.0, 0.0);
     return out;
   }
@@ -160,6 +168,7 @@ class ColumnLaw {
   const FieldProblem& p_;
   bool spread_;
   double scale_ = 0.5 * kVacuumPermittivity * square(p_.v_rms);
+  double most2_ = square(p_.film_holds / p_.v_peak);  // of the air's field, as in Strongest
   // Of a sine with the effective voltage, or that voltage.
   double peak2_ = (p_.steady ? 1 : 2) * square(p_.v_rms);
 };

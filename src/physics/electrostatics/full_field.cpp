@@ -60,6 +60,12 @@ PotentialProblem potential_problem(const Gap& gap, const CoveredSurface* surface
   return potential;
 }
 
+// Of the flux, squared, that the layer's real part leaves; for a flat stack exactly Eq.
+// electrostatics.1.
+double through_skin(double square_field, const FieldProblem& p) {
+  return square_field / (1 + std::max(square_field, 0.0) * square(p.skin_layer.imag()));
+}
+
 // Eq. electrostatics.14 on every pixel that is not bridged.
 void add_pull(const PotentialSolution& s, const Gap& gap, const Wetting& wetting,
               const FieldProblem& p, FieldSolution& out) {
@@ -75,9 +81,7 @@ void add_pull(const PotentialSolution& s, const Gap& gap, const Wetting& wetting
   for (std::size_t i = 0; i < n; ++i) {
     if (!wetting.bridged.empty() && wetting.bridged[i]) continue;
     if (!hidden.empty() && hidden[i] > 0) continue;
-    double square_field = s.square_field[i];
-    // Of the flux that the layer's real part leaves; for a flat stack exactly Eq. electrostatics.1.
-    square_field /= 1 + std::max(square_field, 0.0) * square(p.skin_layer.imag());
+    const double square_field = through_skin(s.square_field[i], p);
     const double g = gap.value[i];
     double pressure = scale * square_field;
     if (field_is_held(p) && square_field > 0) {
@@ -87,7 +91,7 @@ void add_pull(const PotentialSolution& s, const Gap& gap, const Wetting& wetting
     out.traction.value[i] = pressure;
     sum += pressure;
     if (g > 0 && square_field > 0 &&
-        p.v_peak * std::sqrt(square_field) * g > air_breakdown_voltage(g)) {
+        std::min(p.v_peak * std::sqrt(square_field), p.film_holds) * g > air_breakdown_voltage(g)) {
       ++over;
       over_sum += pressure;
     }
@@ -99,15 +103,24 @@ void add_pull(const PotentialSolution& s, const Gap& gap, const Wetting& wetting
 
 // Eq. electrostatics.9: of the voltage over a column's film, as ColumnLaw has it.
 double peak_oxide_field(const PotentialSolution& s, const CoveredSurface* surface,
-                        const FieldProblem& p) {
+                        const Wetting& wetting, const FieldProblem& p) {
   if (p.dielectric_thickness <= 0) return 0;
   double strongest = 0;
   for (std::size_t i = 0; i < s.surface_potential.size(); ++i) {
     const double film = surface ? surface->effective[i] : p.dielectric;
     if (film <= 0) continue;
     const double flux = (1 - s.surface_potential[i]) / film;
-    const double of_film = p.film_phase * flux / std::hypot(1, p.skin_layer.imag() * flux);
-    strongest = std::max(strongest, std::min(of_film, 1 / film));
+    double of_film =
+        std::min(p.film_phase * flux / std::hypot(1, p.skin_layer.imag() * flux), 1 / film);
+    if (p.film_holds < kInfinity) {
+      // Under water by the flux that the film itself has. Eq. electrostatics.22
+      const bool bridge = p.screening && !wetting.bridged.empty() && wetting.bridged[i];
+      const double field =
+          bridge ? of_film : std::sqrt(std::max(through_skin(s.square_field[i], p), 0.0));
+      const double held = std::min(p.film_holds / (p.v_peak * field), 1.0);
+      of_film = share_on_film(film * of_film, held) / film;
+    }
+    strongest = std::max(strongest, of_film);
   }
   const double corner = surface && surface->walls && p.edge_radius > 0
                             ? corner_factor(p.dielectric_thickness, p.edge_radius)
@@ -150,8 +163,8 @@ FieldSolution solve_full_field(const Gap& gap, const CoveredSurface* surface,
     out.ok = false;
     out.reason = "the 3-D field is not resolved on these pixels: its pull is negative";
   }
-  out.peak_air_field = p.v_peak * s.peak_air;
-  out.peak_oxide_field = peak_oxide_field(s, surface, p);
+  out.peak_air_field = std::min(p.v_peak * s.peak_air, p.film_holds);
+  out.peak_oxide_field = peak_oxide_field(s, surface, wetting, p);
   return out;
 }
 

@@ -9,24 +9,29 @@
 namespace papilla::optics {
 namespace {
 
-// The layer in each plane of incidence that counts. Eq. optics.5
+// The layer in each plane of incidence that counts; what absorbs has a positive imaginary part.
+// Eq. optics.5
 std::vector<Medium> layers(double open, bool lines, const OpticalMedia& media) {
-  const double e1 = square(media.fill), e2 = square(media.index);
-  const double mean = open * e1 + (1 - open) * e2;
+  const Complex index(media.index, media.extinction);
+  const Complex e1 = square(media.fill), e2 = index * index;
+  const Complex mean = open * e1 + (1 - open) * e2;
   if (lines) {  // Rytov; across and along the grooves
-    const double harmonic = 1 / (open / e1 + (1 - open) / e2);
+    const Complex harmonic = 1.0 / (open / e1 + (1 - open) / e2);
     return {{harmonic, mean, mean}, {mean, harmonic, mean}};
   }
-  const double b = (2 * open - 1) * (e1 - e2);  // Bruggeman in the plane
-  const double round = 0.5 * (b + std::sqrt(b * b + 4 * e1 * e2));
+  // Bruggeman in the plane. Over the geometric mean the product of both roots is -1, and the one
+  // whose phase lies between those of e1 and e2 has the positive real part.
+  const Complex geometric = std::sqrt(e1 * e2);
+  const Complex b = (2 * open - 1) * (e1 - e2) / geometric;
+  const Complex round = 0.5 * geometric * (b + std::sqrt(b * b + 4.0));
   return {{round, round, mean}};
 }
 
 // Wave numbers along the normal over that of vacuum, for each plane of incidence and polarisation.
-std::vector<double> normal_waves(double open, bool lines, const OpticalMedia& media, double sine) {
-  std::vector<double> out;
+std::vector<Complex> normal_waves(double open, bool lines, const OpticalMedia& media, double sine) {
+  std::vector<Complex> out;
   for (const Medium& layer : layers(open, lines, media)) {
-    for (const Polarisation p : kPolarisations) out.push_back(normal_wave(layer, p, sine).real());
+    for (const Polarisation p : kPolarisations) out.push_back(normal_wave(layer, p, sine));
   }
   return out;
 }
@@ -78,11 +83,13 @@ double disorder_haze(double open, double depth, Features features, const Optical
   const double share = features == Features::Pillars ? 1 - open : open;
   if (w <= 0 || share <= 0 || share >= 1) return 0;
   constexpr double kStep = 1e-4;
-  double slope = 0;  // mean square of d(wave number)/d(open) over planes and polarisations
+  // Mean square of |d(wave number)/d(open)| over planes and polarisations; where the layer absorbs,
+  // the amplitude follows the local share as well.
+  double slope = 0;
   const auto up = normal_waves(std::min(1.0, open + kStep), lines, media, sine),
              down = normal_waves(std::max(0.0, open - kStep), lines, media, sine);
   for (std::size_t i = 0; i < up.size(); ++i)
-    slope += square((up[i] - down[i]) / (2 * kStep)) / static_cast<double>(up.size());
+    slope += std::norm((up[i] - down[i]) / (2 * kStep)) / static_cast<double>(up.size());
   // Spectrum of the share: per feature F^2 (1 - exp(-q^2 d^2)) + (s w dF/dw)^2.
   const auto spectrum = [&](double q) {
     double f = 0, df = 0;  // of one feature, and its change with ln w

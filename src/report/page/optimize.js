@@ -36,14 +36,18 @@ const air = (task) => JSON.stringify(task.points.map((p) => p.relative_humidity)
 const sameAir = data.designs.best.tasks.every((t) => air(t) === air(data.designs.best.tasks[0]));
 const state = { design: 'best', finger: sameAir ? 'mean' : '0' };
 const run = data.run;
-// Objectives in the units that people read: forces in mN.
-const shownAs = (name) => (run.shown || {})[name] || { scale: 1, unit: '' };
+// Objectives in the units that people read: forces in mN. decimals: null of quantities, which have so many digits.
+const shownAs = (name) => ({ scale: 1, unit: '', decimals: 3, ...(run.shown || {})[name] });
 const called = (name) => name + (shownAs(name).unit ? ' [' + shownAs(name).unit + ']' : '');
-const change = (v, name) => { const s = shownAs(name), text = s.unit === '%' ? (v * s.scale).toFixed(2) : s.unit ? round(v * s.scale, 3) : fixed(v); return text.startsWith('-') ? '−' + text.slice(1) : '+' + text; };
+// Of two values; se: of the second.
+function change(v, name, se) {
+  const { scale, decimals } = shownAs(name), text = decimals === null ? round(v * scale, 3) : fixed(v * scale, reaching(decimals, se * scale));
+  return text.startsWith('-') ? '−' + text.slice(1) : '+' + text;
+}
 function quantity(q, name) {
   const s = shownAs(name);
-  if (!q || !s.unit) return withError(q);
-  if (s.unit === '%') return [q.value, q.se].filter((v) => v !== undefined && v !== null).map((v) => (v * s.scale).toFixed(2)).join(' ± ');
+  if (!q || q.value === null) return '–';
+  if (s.decimals !== null) return withError(q, s);
   return round(q.value * s.scale, 4) + (q.se !== undefined && q.se !== null ? ' ± ' + round(q.se * s.scale, 2) : '') + (q.parameters ? ' (' + round(q.parameters * s.scale, 2) + ')' : '');
 }
 
@@ -132,7 +136,7 @@ function showAll() {
   parallel($('all'), axes, done.map((r) => ({
     values: names.map((name, i) => { const v = number(r[name]); return typeof v === 'number' ? v * axes[i].scale : v; }),
     group: r.feasible === 'no' ? 'broken' : 'searched',
-    text: names.filter((name) => r[name] !== '').map((name) => `${name} ${entry(r[name])}`).join(', '),
+    text: names.filter((name) => r[name] !== '').map((name) => objectives.includes(name) ? `${called(name)} ${round(r[name] * shownAs(name).scale)}` : `${name} ${entry(r[name])}`).join(', '),
   })), () => {});
 }
 
@@ -206,7 +210,7 @@ function showSection(box, heading, none) {
 function showProgress() {
   const better = history.map((r) => +r.hypervolume);
   const sets = [{ label: 'hypervolume of the front (share)', data: better.map((y, i) => ({ x: i + 1, y })), stepped: true, borderColor: colours[0], backgroundColor: colours[0], pointRadius: 0, borderWidth: 2.5, yAxisID: 'y' }];
-  objectives.forEach((name, k) => sets.push({ label: name, data: history.filter((r) => r[name] !== '').map((r) => ({ x: +r.evaluation, y: +r[name] })), showLine: false, borderColor: colours[1 + k], backgroundColor: colours[1 + k], pointRadius: 3.5, yAxisID: 'v' }));
+  objectives.forEach((name, k) => sets.push({ label: called(name), data: history.filter((r) => r[name] !== '').map((r) => ({ x: +r.evaluation, y: +r[name] * shownAs(name).scale })), showLine: false, borderColor: colours[1 + k], backgroundColor: colours[1 + k], pointRadius: 3.5, yAxisID: 'v' }));
   draw('progress', {
     type: 'line',
     data: { datasets: objectives.length > 1 ? sets : sets.slice(1) },
@@ -220,10 +224,12 @@ function showProgress() {
 const showMaps = (index) => mapFigures($('maps'), data.fields[index].maps);
 
 const people = (text) => text.replace(/(\d ?)um\b/g, '$1µm').replace(/ deg\b/g, '°');
-// The build sheet of what is recommended; other designs have their dimensions alone.
+// The build sheet of what is recommended; other designs, and a flat surface without numbers that were searched, have their
+// dimensions alone.
 function showDimensions(d) {
-  const sheet = recommended() ? run.sheet : null;
-  $('grid').hidden = $('yield').hidden = !sheet;
+  const sheet = recommended() && run.sheet.length ? run.sheet : null;
+  $('tolerance').hidden = !sheet;
+  $('yield').hidden = !recommended();
   if (!sheet) {
     const rows = sectionOf(d.toml, 'texture'), angle = /contact_angle = "([\d.]+) deg"/.exec(d.toml);
     if (angle) rows.push(['contact angle of the surface', round(+angle[1], 3) + ' °']);
@@ -245,7 +251,7 @@ function showLimits(d) {
 function showSteps() {
   const steps = run.steps || [], names = steps.length ? Object.keys(steps[0].objectives) : [];
   const before = { 'flat, finish and drive of the study': 'finish', 'flat, finish and drive of the best': 'finish', 'best, with its texture': 'texture', 'best, on the grid of the fab': 'rounding', 'flat, on the grid of the fab': 'rounding' };
-  table($('steps'), ['Surface'].concat(names.map(called), ['what changed']), steps.map((s, i) => [s.surface].concat(names.map((n) => quantity(s.objectives[n], n) + (i ? ` (${change(s.objectives[n].value - steps[i - 1].objectives[n].value, n)})` : '')), [i ? before[s.surface] || '' : '']))
+  table($('steps'), ['Surface'].concat(names.map(called), ['what changed']), steps.map((s, i) => [s.surface].concat(names.map((n) => quantity(s.objectives[n], n) + (i ? ` (${change(s.objectives[n].value - steps[i - 1].objectives[n].value, n, s.objectives[n].se)})` : '')), [i ? before[s.surface] || '' : '']))
     .concat(run.best_flat ? [[run.best_flat.surface].concat(names.map((n) => quantity(run.best_flat.objectives[n], n)), ['beside it'])] : []), names.map((n, i) => i + 1));
 }
 

@@ -66,7 +66,7 @@ export function saveDialog(session) {
   const changed = session.changes.map(([path, text]) => [called(path), people(text)]);
   const rows = make('table');
   table(rows, ['Changed', 'Value'], changed.length ? changed : [['nothing', '']]);
-  dialog('Save the design', [field('Name', name), overLabel, rows, make('p', { className: 'note', textContent: session.in_folder ? 'The file keeps its comments; only these values change.' : 'The new file stands on the shipped one and holds the changed keys alone.' })],
+  dialog('Save the design', [field('Name', name), overLabel, rows, make('p', { className: 'note', textContent: session.in_folder ? 'The file keeps its comments; only these values change. Below its folder the new file has every value.' : 'The new file stands on the shipped one and holds the changed keys alone.' })],
     [['Save', async () => { saving.name = name.value; const { file } = await post('save', { name: name.value, overwrite: over.checked }); notice(''); document.documentElement.dataset.saved = file; return true; }, true]]);
 }
 

@@ -1,6 +1,6 @@
 // The form: one row a key, sliders that answer under the hand, kinds of texture as pictures.
 import { $ } from '../plots/look.js';
-import { colour, decode } from '../plots/maps.js';
+import { pixelsOf } from '../plots/maps.js';
 import { round } from '../plots/numbers.js';
 import { ask, notice, post } from './server.js';
 
@@ -254,9 +254,8 @@ export function showKinds(kinds) {
     const button = element('button'), canvas = element('canvas'), image = element('img');
     canvas.width = heights.nx;
     canvas.height = heights.ny;
-    const values = decode(heights), pixels = new ImageData(heights.nx, heights.ny), span = heights.high - heights.low;
-    for (let i = 0; i < values.length; ++i) pixels.data.set([...colour(span > 0 ? (values[i] - heights.low) / span : 0.6), 255], 4 * i);
-    canvas.getContext('2d').putImageData(pixels, 0, 0);
+    const span = heights.high - heights.low;
+    canvas.getContext('2d').putImageData(pixelsOf(heights, (v) => (span > 0 ? (v - heights.low) / span : 0.6)), 0, 0);
     image.src = canvas.toDataURL();  // a canvas would be a layer of its own, drawn again with each frame of the page
     image.alt = '';
     button.type = 'button';

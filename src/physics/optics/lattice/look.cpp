@@ -1,5 +1,7 @@
 #include "physics/optics/lattice/look.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -26,14 +28,19 @@ double width_at(const FeatureArray& array, double height) {
   return std::max(0.0, width);
 }
 
+constexpr double kStep = 40e-9;  // between planes of sloped walls [m]
+// A slice of lines takes a millisecond or two, one of discs a tenth of a second and more.
+double most_slices(const FeatureArray& array) {
+  return array.shape == FeatureArray::Shape::Line ? 64 : 16;
+}
+
 // Planes between which the walls count as upright, from the lowest up.
 std::vector<double> planes_of(const FeatureArray& array) {
-  constexpr double kStep = 40e-9, kMost = 16;
   const double end = array.terraces.back().height;
-  const int slices =
-      array.terraces.size() == 1
-          ? 1
-          : static_cast<int>(std::clamp(std::ceil(std::abs(end) / kStep), 4.0, kMost));
+  const double wanted = std::ceil(std::abs(end) / kStep - 1e-6);  // whatever a multiple rounds to
+  const int slices = array.terraces.size() == 1
+                         ? 1
+                         : static_cast<int>(std::clamp(wanted, 4.0, most_slices(array)));
   std::vector<double> out;
   for (int k = 0; k <= slices; ++k) out.push_back(std::min(end, 0.0) + std::abs(end) * k / slices);
   return out;
@@ -83,7 +90,8 @@ class LatticeFace {
       out.total += d.transmission() * rest;
       for (const LatticeOrder& o : d.transmitted) {
         all += o.power;
-        if (std::hypot(o.sx, o.sy) <= media_.fill * std::sin(meters_.cone)) cone += o.power;
+        // Directions as in air, whatever fills the texture. Eq. optics.2, 8
+        if (std::hypot(o.sx, o.sy) <= std::sin(meters_.cone)) cone += o.power;
         if (o.m == 0 && o.n == 0) out.specular += o.power;
       }
     }
@@ -161,6 +169,13 @@ Optics lattice_look(const FeatureArray& array, const OpticalMedia& media, const 
   out.gloss_85 = face.gloss_units(85);
   if (meters.panel)
     out.sparkle = array_screen_of(array)->sparkle(media.index - media.fill, *meters.panel);
+  const double depth = std::abs(array.terraces.back().height), most = most_slices(array);
+  if (array.terraces.size() > 1 && depth > most * kStep * (1 + 1e-9)) {
+    out.warning = fmt::format(
+        "sloped walls {:.0f} nm deep are sliced every {:.0f} nm instead of {:.0f}: the rigorous "
+        "look is rough; make the texture at most {:.0f} nm deep",
+        1e9 * depth, 1e9 * depth / most, 1e9 * kStep, 1e9 * most * kStep);
+  }
   return out;
 }
 

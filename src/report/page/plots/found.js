@@ -3,18 +3,20 @@ import { colours, faint } from './look.js';
 import { around, axis } from './charts.js';
 import { entry, round } from './numbers.js';
 const leading = (text) => { const m = /^-?[\d.]+(e[-+]?\d+)?(?=\s|$)/i.exec(text || ''); return m ? +m[0] : null; };
-// { searched, confirmed, front, names, objectives }: points with x, y, the texts of their variables; names of the two axes, and
-// those that are wanted. A single objective is shown over the first number that the search varies.
+// { searched, confirmed, front, names, objectives }: points with x, y in the units that people read, the texts of their
+// variables; names of the two axes, and those that are wanted, with their units. A single objective is shown over the first number that the search varies.
 export function found(search) {
-  const [x, y] = search.objectives.map((o) => o.name), on = new Set(search.front);
-  const first = search.variables.findIndex((v, i) => search.points.some((p) => leading(p.values[i]) !== null)), over = search.variables[first];
+  const [first, other] = search.objectives, x = first.name, y = other && other.name, on = new Set(search.front);
+  const called = (o) => o.name + (o.unit ? ` [${o.unit}]` : '');
+  const place = search.variables.findIndex((v, i) => search.points.some((p) => leading(p.values[i]) !== null)), over = search.variables[place];
   const shown = over && over.path.replace(/^[a-z]+\./, '').replace(/[._]/g, ' ') + (over.unit ? ` [${over.unit.replace(/^um$/, 'µm').replace(/^deg$/, '°')}]` : '');
-  const second = (p, i) => y ? p.objectives[1] : over ? leading(p.values[first]) : i + 1;
+  const scaled = (value, o) => (value === null || value === undefined ? value : value * o.scale);
+  const second = (p, i) => other ? scaled(p.objectives[1], other) : over ? leading(p.values[place]) : i + 1;
   const known = (p) => p.x !== null && p.x !== undefined && p.y !== null && p.y !== undefined;
-  const searched = search.points.map((p, i) => ({ x: p.objectives[0], y: second(p, i), evaluation: i, ok: p.ok && p.feasible, values: p.values })).filter(known);
-  const confirmed = search.confirmed.filter((r) => r['on front'] === 'yes' && r[x] !== '').map((r) => ({ x: +r[x], y: y ? +r[y] : over ? leading(r[over.path + (over.unit ? ` [${over.unit}]` : '')]) : 0, ex: +r[x + ' se'] || 0, ey: y ? +r[y + ' se'] || 0 : 0, front: r.design, doubts: r['p(best)'] ? [round(100 * r['p(best)'], 3) + ' %', round(+r['expected regret'], 2), round(100 * r['p(every limit)'], 3) + ' %'] : [], values: search.variables.map((v) => `${entry(r[v.path + (v.unit ? ` [${v.unit}]` : '')])} ${v.unit}`) })).sort((a, b) => a.x - b.x);
+  const searched = search.points.map((p, i) => ({ x: scaled(p.objectives[0], first), y: second(p, i), evaluation: i, ok: p.ok && p.feasible, values: p.values })).filter(known);
+  const confirmed = search.confirmed.filter((r) => r['on front'] === 'yes' && r[x] !== '').map((r) => ({ x: r[x] * first.scale, y: other ? r[y] * other.scale : over ? leading(r[over.path + (over.unit ? ` [${over.unit}]` : '')]) : 0, ex: r[x + ' se'] * first.scale || 0, ey: other ? r[y + ' se'] * other.scale || 0 : 0, front: r.design, doubts: r['p(best)'] ? [round(100 * r['p(best)'], 3) + ' %', round(+r['expected regret'], 2), round(100 * r['p(every limit)'], 3) + ' %'] : [], values: search.variables.map((v) => `${entry(r[v.path + (v.unit ? ` [${v.unit}]` : '')])} ${v.unit}`) })).sort((a, b) => a.x - b.x);
   const front = searched.filter((p) => on.has(p.evaluation)).sort((a, b) => a.x - b.x);
-  return { searched, confirmed, front, names: [x, y || shown || 'evaluation'], objectives: y ? [x, y] : [x] };
+  return { searched, confirmed, front, names: [called(first), other ? called(other) : shown || 'evaluation'], objectives: search.objectives.slice(0, 2).map(called) };
 }
 // The chart of that: its datasets and its axes.
 export function foundChart({ searched, confirmed, front, names, objectives }) {

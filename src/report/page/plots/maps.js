@@ -15,6 +15,16 @@ export function decode(map) {
   }
   return map.values;
 }
+// Rows of a map go up from the lowest y, those of a picture down from its top.
+const topDown = (map, y) => map.ny - 1 - y;
+// Its pixels, one each, coloured by `share` of a value: 0 to 1.
+export function pixelsOf(map, share) {
+  const values = decode(map), image = new ImageData(map.nx, map.ny);
+  for (let y = 0; y < map.ny; ++y) {
+    for (let x = 0; x < map.nx; ++x) image.data.set([...colour(share(values[topDown(map, y) * map.nx + x])), 255], 4 * (y * map.nx + x));
+  }
+  return image;
+}
 // root: colours by the square root above the least value, for maps that are nearly all zero. The canvas keeps how it is
 // painted, for another kind of picture, and the map, for its numbers.
 export function drawMap(canvas, map, unit, scale, line, root) {
@@ -23,25 +33,21 @@ export function drawMap(canvas, map, unit, scale, line, root) {
   canvas.height = height + 46;
   const most = Math.max(Math.abs(map.low), Math.abs(map.high)), values = decode(map), said = (v) => round(level(v, most) * scale);
   canvas.$map = { map, unit, scale };
-  canvas.$paint = (c) => paint(c, { map, values, unit, line, root, side, height, said });
+  canvas.$paint = (c) => paint(c, { map, unit, line, root, side, height, said });
   canvas.$paint(canvas.getContext('2d'));
   canvas.onmousemove = (event) => {
     const x = Math.floor(event.offsetX / canvas.clientWidth * map.nx);
-    const y = Math.floor(event.offsetY / canvas.clientHeight * canvas.height / height * map.ny);
+    const y = topDown(map, Math.floor(event.offsetY / canvas.clientHeight * canvas.height / height * map.ny));
     canvas.title = x >= 0 && x < map.nx && y >= 0 && y < map.ny
       ? `${said(values[y * map.nx + x])} ${unit} at ${micrometres((x + 0.5) * map.lx / map.nx)}, ${micrometres((y + 0.5) * map.ly / map.ny)}` : '';
   };
 }
-function paint(c, { map, values, unit, line, root, side, height, said }) {
+function paint(c, { map, unit, line, root, side, height, said }) {
   const pixels = document.createElement('canvas');
   pixels.width = map.nx;
   pixels.height = map.ny;
-  const image = new ImageData(map.nx, map.ny), span = map.high - map.low;
-  for (let i = 0; i < values.length; ++i) {
-    const share = span > 0 ? (values[i] - map.low) / span : map.low === 0 ? 0 : 0.5, rgb = colour(root ? Math.sqrt(share) : share);
-    image.data.set([rgb[0], rgb[1], rgb[2], 255], 4 * i);
-  }
-  pixels.getContext('2d').putImageData(image, 0, 0);
+  const span = map.high - map.low, eased = (share) => (root ? Math.sqrt(share) : share);
+  pixels.getContext('2d').putImageData(pixelsOf(map, (v) => eased(span > 0 ? (v - map.low) / span : map.low === 0 ? 0 : 0.5)), 0, 0);
   c.fillStyle = ink('paper');
   c.fillRect(0, 0, side, height + 46);
   c.imageSmoothingEnabled = false;
@@ -50,8 +56,9 @@ function paint(c, { map, values, unit, line, root, side, height, said }) {
     c.strokeStyle = '#fff';
     c.setLineDash([8, 6]);
     c.beginPath();
-    c.moveTo(0, (line + 0.5) / map.ny * height);
-    c.lineTo(side, (line + 0.5) / map.ny * height);
+    const down = (topDown(map, line) + 0.5) / map.ny * height;
+    c.moveTo(0, down);
+    c.lineTo(side, down);
     c.stroke();
     c.setLineDash([]);
   }
@@ -62,7 +69,7 @@ function paint(c, { map, values, unit, line, root, side, height, said }) {
   c.textBaseline = 'alphabetic';
   c.fillText(micrometres(bar), 2, height + 38);
   for (let x = 0; x < 170; ++x) {
-    const rgb = colour(root ? Math.sqrt(x / 169) : x / 169);
+    const rgb = colour(eased(x / 169));
     c.fillStyle = `rgb(${rgb.join()})`;
     c.fillRect(side - 172 + x, height + 9, 1, 10);
   }

@@ -11,9 +11,15 @@ export function withBar(value, error) {
   const text = (v) => decimals < 0 ? String(Math.round(v / step) * step) : v.toFixed(Math.min(decimals, 12));
   return `${text(value)} ± ${text(shown)}`;
 }
-// Three decimals; a zero has no sign.
-export const fixed = (v) => v.toFixed(3).replace(/^-(0\.000)$/, '$1');
-export const withError = (q) => q ? fixed(q.value) + (q.se !== undefined && q.se !== null ? ' ± ' + q.se.toFixed(3) : '') + (q.parameters ? ' (' + q.parameters.toFixed(3) + ')' : '') : '–';
+// A zero has no sign.
+export const fixed = (v, decimals = 3) => v.toFixed(decimals).replace(/^-(0\.?0*)$/, '$1');
+// As many as reach the first digit of an error; that of a look, which nothing scatters, is its last bits.
+export const reaching = (decimals, error) => error > 1e-9 ? Math.max(decimals, Math.ceil(-Math.log10(error) - 1e-9)) : decimals;
+// "0.612 ± 0.014 (0.051)", of a value in SI that people read as `scale` times it to so many decimals.
+export function withError(q, { scale, decimals }) {
+  const known = q.se !== undefined && q.se !== null, digits = known ? reaching(decimals, q.se * scale) : decimals, text = (v) => fixed(v * scale, digits);
+  return text(q.value) + (known ? ' ± ' + text(q.se) : '') + (q.parameters ? ' (' + text(q.parameters) + ')' : '');
+}
 export function csv(text) {
   const rows = text.trim().split('\n').map((line) => line.split(','));
   const head = rows.shift();

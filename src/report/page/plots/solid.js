@@ -121,16 +121,17 @@ function write(text, at) {
   word.scale.set(0.56, 0.14, 1);
   solid.turn.add(word);
 }
-// Along the front and the left side, ticks at a round length; at the right corner the whole height, which is stretched.
-function axes(map, unit, tick, base, back, span, stretch) {
-  const [right, front] = [map.lx * unit / 2, map.ly * unit / 2], out = 0.05, lines = [[-right, base, front, right, base, front], [-right, base, back, -right, base, front]];
+// Along the front, which the section moves, and the left side, ticks at a round length; at the right corner the whole
+// height, which is stretched.
+function axes(map, unit, tick, base, front, span, stretch) {
+  const [right, lowest] = [map.lx * unit / 2, map.ly * unit / 2], back = -lowest, out = 0.05, lines = [[-right, base, front, right, base, front], [-right, base, back, -right, base, front]];
   for (let at = 0; at <= map.lx * (1 + 1e-9); at += tick) {
     lines.push([at * unit - right, base, front, at * unit - right, base, front + out]);
     write(at ? micrometres(at) : '0', [at * unit - right, base, front + 0.16]);
   }
   for (let at = tick; at <= map.ly * (1 + 1e-9); at += tick) {
-    const z = front - at * unit;
-    if (z < back - 1e-9) break;
+    const z = lowest - at * unit;
+    if (z > front + 1e-9) continue;  // cut away
     lines.push([-right, base, z, -right - out, base, z]);
     write(micrometres(at), [-right - 0.22, base, z]);
   }
@@ -151,7 +152,7 @@ function mesh(positions, tints, index, sides) {
   geometry.computeVertexNormals();
   solid.turn.add(new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: THREE.VertexColors, side: THREE.DoubleSide, flatShading: sides })));
 }
-// A block with the texture on top, from the section on; its sides go down to below the deepest place.
+// A block with the texture on top, its lowest y in front, where the section cuts; its sides go down to below the deepest place.
 export function showSolid(map) {
   const values = decode(map), span = map.high - map.low, stretch = chosenStretch(map, span);
   solid.map = map;
@@ -160,7 +161,7 @@ export function showSolid(map) {
   solid.tools.stretch.value = Math.round(100 * Math.log10(stretch));
   clear();
   const { nx, ny } = map, unit = 1.6 / Math.max(map.lx, map.ly), first = Math.min(ny - 2, Math.round(solid.section * (ny - 1)));
-  const at = (x, y, z) => [((x + 0.5) / nx - 0.5) * map.lx * unit, z, ((y + 0.5) / ny - 0.5) * map.ly * unit];
+  const at = (x, y, z) => [((x + 0.5) / nx - 0.5) * map.lx * unit, z, (0.5 - (y + 0.5) / ny) * map.ly * unit];
   const height = (x, y) => (values[y * nx + x] - map.high) * stretch * unit, base = -(span * stretch * unit + 0.12);
   const positions = [], tints = [], index = [];
   for (let y = first; y < ny; ++y) {
@@ -169,7 +170,7 @@ export function showSolid(map) {
       colour(span > 0 ? (values[y * nx + x] - map.low) / span : 0.5).forEach((v) => tints.push(v / 255));
       if (x + 1 < nx && y + 1 < ny) {
         const a = (y - first) * nx + x;
-        index.push(a, a + nx, a + 1, a + 1, a + nx, a + nx + 1);
+        index.push(a, a + 1, a + nx, a + 1, a + nx + 1, a + nx);
       }
     }
   }
