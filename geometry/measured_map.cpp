@@ -101,12 +101,11 @@ Heightmap periodic_cut(const Heightmap& source, const Grid& grid, double x0, dou
   return out;
 }
 
+bool is_whole(double times) { return times > 0.5 && std::abs(times - std::round(times)) < 1e-6; }
+
 // Whether so many whole cells make the sides.
 bool whole_cells(const Grid& sides, const UnitCell& cell) {
-  const auto whole = [](double times) {
-    return times > 0.5 && std::abs(times - std::round(times)) < 1e-6;
-  };
-  return whole(sides.lx / cell.x) && whole(sides.ly / cell.y);
+  return is_whole(sides.lx / cell.x) && is_whole(sides.ly / cell.y);
 }
 
 bool same_pixels(const Grid& a, const Grid& b) {
@@ -207,13 +206,20 @@ Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& a
       whole_cells(grid, {whole.lx, whole.ly}) || (source.as_is && whole_cells(grid, period));
   const bool from_corner = source.as_is && (part || cell);
   if (from_corner && !fits) {
+    // Rows of hexagons repeat after the root of three periods along y, which no square side does.
+    const char* remedy =
+        is_whole(grid.lx / period.x)
+            ? "a square patch fits no hexagonal lattice: take a square lattice, or a map whose own "
+              "sides are whole cells of it"
+            : "give the period of the map as its patch, or the other parts a period that divides "
+              "it";
     throw wrong_key(
         "patch",
         fmt::format("{}: as_is says that it repeats after {:.4g} x {:.4g} um, and the {:.4g} x "
                     "{:.4g} um of the stack that it is a part of are no whole number of them: a "
-                    "step would be left at the border; give the period of the map as its patch, or "
-                    "the other parts a period that divides it",
-                    source.file, 1e6 * period.x, 1e6 * period.y, 1e6 * grid.lx, 1e6 * grid.ly));
+                    "step would be left at the border; {}",
+                    source.file, 1e6 * period.x, 1e6 * period.y, 1e6 * grid.lx, 1e6 * grid.ly,
+                    remedy));
   }
   const bool tiles = fits && (from_corner || (repeats && larger));
   if (larger && !tiles) {

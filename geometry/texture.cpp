@@ -113,9 +113,12 @@ Grid simulated_patch(const Texture& texture, int pixels, int most) {
     double least = kInfinity;
     lx = cell.x;
     ly = cell.y;
-    const int periods = static_cast<int>(std::ceil(2 * kWindow / cell.x));
-    for (int i = 1; i <= periods; ++i) {
-      for (int j = 1; j <= periods; ++j) {
+    // Of each side on its own: the cell of grooves beside finer holes is shorter along y.
+    const auto most_periods = [](double side) {
+      return static_cast<int>(std::ceil(2 * kWindow / side));
+    };
+    for (int i = 1; i <= most_periods(cell.x); ++i) {
+      for (int j = 1; j <= most_periods(cell.y); ++j) {
         const double x = i * cell.x, y = j * cell.y;
         const double unlike =
             std::abs(std::log(x * y / (kWindow * kWindow))) + 0.5 * std::abs(std::log(x / y));

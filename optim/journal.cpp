@@ -103,9 +103,11 @@ std::size_t take_records(std::string_view text, std::size_t from,
 }
 
 [[noreturn]] void refuse_other(const std::string& path) {
-  throw InputError(path +
-                   ": written for another study, seed or version of Papilla, which alone goes on "
-                   "with it and verifies it; a new run needs another folder");
+  throw InputError(
+      path +
+      ": written for another study, seed or version of Papilla, or for its maps as they "
+      "were, which alone goes on with it and verifies it; a new run needs another "
+      "folder");
 }
 
 // The journal as it is, beside it; its path.

@@ -44,19 +44,20 @@ bool divides(double part, double length) {
   return std::abs(length / part - std::round(length / part)) <= 1e-6;
 }
 
-// Whether a part with relief is alike all along y: its cell is as high as what it is combined with.
+// Whether what repeats of a part is alike all along y: its cell is as high as what it is combined
+// with. Parts of it without a cell, rough or flat, set no height.
 bool is_uniform(const Texture& texture, const TextureFacts& known) {
   const auto* stack = std::get_if<Stack>(&texture.kind);
   if (!stack) return known.directional;
   return std::all_of(stack->parts.begin(), stack->parts.end(), [](const Texture& part) {
     const TextureFacts of = facts(part);
-    return !of.relief.present || is_uniform(part, of);
+    return !of.cell || is_uniform(part, of);
   });
 }
 
 // The longest period along either side: all others divide it (problems() says so otherwise). A map
-// that repeats and is whole cells of the lattice of the others makes the cell as large as itself:
-// cut within, it would have a step at the border.
+// that repeats and is whole cells of the others along a side makes the cell as long as itself
+// there: cut within, it would have a step at the border.
 std::optional<UnitCell> cell_of(const Stack& t, const std::vector<TextureFacts>& parts) {
   UnitCell out{0, 0};
   double uniform = 0;  // height where all parts are alike along y
@@ -71,9 +72,10 @@ std::optional<UnitCell> cell_of(const Stack& t, const std::vector<TextureFacts>&
   if (out.y == 0) out.y = uniform;
   for (const TextureFacts& part : parts) {
     const FreePatch& map = part.free_patch;
-    if (!part.cell && map.exact && map.repeats && divides(out.x, *map.exact) &&
-        divides(out.y, *map.exact))
-      out = {*map.exact, *map.exact};
+    if (part.cell || !map.exact || !map.repeats) continue;
+    const double side = *map.exact;
+    if (divides(out.x, side)) out.x = side;
+    if (divides(out.y, side)) out.y = side;
   }
   return out;
 }
@@ -83,16 +85,21 @@ std::optional<std::pair<std::string, std::string>> misfit(Texture part, const Te
                                                           const UnitCell& whole) {
   if (!known.cell) return std::nullopt;
   const UnitCell& own = *known.cell;
+  // A stack has neither key: its parts do.
+  const Roles role = roles(part);
   if (!divides(own.x, whole.x)) {
     const double times = whole.x / own.x;
     return std::pair{
-        "period", fmt::format("{:.8g} um does not divide the largest period of the stack, {:.6g} "
-                              "um; the nearest that do are {:.6g} um and {:.6g} um",
-                              1e6 * own.x, 1e6 * whole.x, 1e6 * whole.x / std::ceil(times),
-                              1e6 * whole.x / std::floor(times))};
+        role.parts ? "parts" : "period",
+        fmt::format("{:.8g} um does not divide the largest period of the stack, {:.6g} "
+                    "um; the nearest that do are {:.6g} um and {:.6g} um",
+                    1e6 * own.x, 1e6 * whole.x, 1e6 * whole.x / std::ceil(times),
+                    1e6 * whole.x / std::floor(times))};
   }
   if (is_uniform(part, known) || divides(own.y, whole.y)) return std::nullopt;
-  return std::pair{roles(part).lattice ? "lattice" : "period",
+  return std::pair{role.parts     ? "parts"
+                   : role.lattice ? "lattice"
+                                  : "period",
                    fmt::format("its rows repeat after {:.6g} um along y, which does not divide the "
                                "{:.6g} um of the stack; make all lattices of it square, or all "
                                "hexagonal",

@@ -29,7 +29,7 @@ void take_felt_errors(Resampled& run, const std::vector<ResponsePoint>& response
   const auto take = [&](std::vector<ResponsePoint>& points) {
     for (std::size_t i = 0; i < std::min(points.size(), response.size()); ++i) {
       const Measured& known = response[i].modulation;
-      if (known.value != 0) points[i].felt_error = known.se() / std::abs(known.value);
+      points[i].felt_error = known.parts.numerical() / (1 + known.value);
     }
   };
   take(run.points);

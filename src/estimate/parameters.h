@@ -13,8 +13,8 @@ namespace papilla::estimate {
 Fidelity step_fidelity(const Fidelity& fidelity);
 
 // A run on few skins, without control or field skins, is as well known as the response that it is
-// moved from: `felt` there takes the response's own error of the modulation, in proportion. A
-// modulation of 0 has no such share. Eq. metrics.7
+// moved from: `felt` there takes the response's own numerical error of the modulation, as a share
+// of the ratio F_on/F_off that it is of. Eq. metrics.7
 void take_felt_errors(Resampled& run, const std::vector<ResponsePoint>& response);
 
 // Eq. accuracy.11: central differences over the steps, on common skins, offsets and droplets. Fills

@@ -44,9 +44,9 @@ std::string refusal(const ExportFormat& format, const TextureFacts& known,
   return {};
 }
 
-// One cell of the lattice; sides of 0 where nothing repeats. Two periods along x hold two rows of a
-// square lattice, one of a hexagonal.
-Grid unit_cell(const Texture& texture, int pixels) {
+// One period along x and as much of whole cells along y; sides of 0 where nothing repeats. Two
+// periods along x hold two rows of a square lattice, one of a hexagonal.
+Grid one_period(const Texture& texture, int pixels) {
   const double period = facts(texture).period();
   if (!(period > 0)) return {};
   Grid cell = patch_grid(texture, 2 * (pixels + pixels % 2), 2 * period);
@@ -129,10 +129,10 @@ Grid rectangle(const Texture& texture, const Grid& square, double size_y) {
 
 // The grid of the heights. Throws InputError above so many pixels and for more than the memory
 // holds.
-Grid export_grid(const Texture& texture, const Grid& cell, const ExportOptions& options,
+Grid export_grid(const Texture& texture, const Grid& period, const ExportOptions& options,
                  double most_pixels = kMostPixels) {
   Grid grid = patch_grid(texture, options.pixels, options.size > 0 ? options.size : kWindow);
-  if (options.size > 0 && cell.lx > 0 && options.size < 1.5 * cell.lx) grid = cell;
+  if (options.size > 0 && period.lx > 0 && options.size < 1.5 * period.lx) grid = period;
   if (options.size_y > 0) grid = rectangle(texture, grid, options.size_y);
   if (static_cast<double>(grid.nx) * grid.ny > most_pixels) {
     throw InputError(
@@ -252,14 +252,14 @@ Export prepared(Texture drawn, const ExportOptions& options,
   const bool mask = any_of(formats, [](const ExportFormat& f) { return f.follows_outline; });
   const bool pixels = any_of(formats, [](const ExportFormat& f) { return f.has_pixels(); });
   if (layout && array) snap_period(out.texture, out.warnings);
-  const Grid cell = unit_cell(out.texture, options.pixels);
-  const Grid grid = export_grid(out.texture, cell, options, most_pixels);
+  const Grid period = one_period(out.texture, options.pixels);
+  const Grid grid = export_grid(out.texture, period, options, most_pixels);
   const bool contours = layout && !array;
   if (pixels || contours) judge_pixels(out.texture, grid, mask || contours, out.warnings);
   out.heightmap = generate(out.texture, grid);
-  if (cell.lx > 0) {
-    out.cells_x = static_cast<int>(std::lround(grid.lx / cell.lx));
-    out.cells_y = static_cast<int>(std::lround(grid.ly / cell.ly));
+  if (const std::optional<UnitCell> cell = facts(out.texture).cell) {
+    out.cells_x = static_cast<int>(std::lround(grid.lx / cell->x));
+    out.cells_y = static_cast<int>(std::lround(grid.ly / cell->y));
   }
   judge_size(out, options);
   judge_repeat(formats, options, out.warnings);
@@ -278,7 +278,7 @@ bool mask_shows(const Texture& texture, const ExportOptions& options) {
   const TextureFacts known = facts(texture);
   if (known.relief.present && !undrawable(known).empty()) return false;
   return lost_between_pixels(texture,
-                             export_grid(texture, unit_cell(texture, options.pixels), options))
+                             export_grid(texture, one_period(texture, options.pixels), options))
       .empty();
 }
 

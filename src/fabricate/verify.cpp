@@ -149,20 +149,42 @@ Verification verify_export(const ExportRecord& record, double tolerance) {
 
 namespace {
 
-// Whether a map that is narrower than a limit is the design all the same: it keeps the limit at the
-// land, and its own map is as narrow half-way down, to a pixel. Round rims widen shallow holes.
-bool as_designed(const Constraint& limit, const Design& design, const Heightmap& h,
-                 double narrowest) {
-  const auto* shape = std::get_if<ShapeLimit>(&limit.on);
-  if (!shape || !keeps(limit, margin_of(shape->margin, facts(design.texture).margins)))
-    return false;
+// A patch of the design with pixels of the file's size.
+Grid like_file(const Texture& texture, const Heightmap& h) {
   constexpr int kFewest = 64;
-  const double side = patch_grid(design.texture, kFewest).lx;
-  const int pixels = std::max(kFewest, static_cast<int>(std::lround(side / h.grid.dx())));
-  const PixelMargins own =
-      measure_margins(generate(design.texture, patch_grid(design.texture, pixels)));
+  const double side = patch_grid(texture, kFewest).lx;
+  return patch_grid(texture, std::max(kFewest, static_cast<int>(std::lround(side / h.grid.dx()))));
+}
+
+// Whether the map of a texture is as narrow half-way down, to a pixel. Round rims widen shallow
+// holes.
+bool is_as_narrow(const Constraint& limit, const Texture& texture, const Grid& grid,
+                  double narrowest) {
+  const PixelMargins own = measure_margins(generate(texture, grid));
   const std::optional<double> there = in_pixels(limit.on, own);
   return there && narrowest >= *there - own.pixel;
+}
+
+// Whether a map that is narrower than a limit is the design all the same: it keeps the limit at the
+// land, and its own map is as narrow.
+bool as_designed(const Constraint& limit, const Texture& texture, const Grid& grid,
+                 double narrowest) {
+  const auto* shape = std::get_if<ShapeLimit>(&limit.on);
+  return shape && keeps(limit, margin_of(shape->margin, facts(texture).margins)) &&
+         is_as_narrow(limit, texture, grid, narrowest);
+}
+
+// Whether a part with edges is as narrow by itself: then nothing is left between two of them. A
+// part of several masks is asked for each of its own.
+bool one_mask_is_as_narrow(const Constraint& limit, const Stack& stack, const Grid& grid,
+                           double narrowest) {
+  return std::any_of(stack.parts.begin(), stack.parts.end(), [&](const Texture& part) {
+    if (const auto* inner = std::get_if<Stack>(&part.kind))
+      return one_mask_is_as_narrow(limit, *inner, grid, narrowest);
+    // Grains of a surface without edges are no holes and walls.
+    return std::isfinite(facts(part).margins.smallest()) &&
+           is_as_narrow(limit, part, grid, narrowest);
+  });
 }
 
 }  // namespace
@@ -184,9 +206,11 @@ Verification verify_export(const Study& study, const std::string& file, double t
     const std::string narrow =
         fmt::format("{} of the file is {:.3g} um, below {:.3g} um (pixel {:.2g} um)",
                     limit_name(c.on), 1e6 * *narrowest, 1e6 * c.limit, 1e6 * out.pixels.pixel);
-    if (!as_designed(c, design, h, *narrowest)) {
+    const Grid grid = like_file(design.texture, h);
+    const auto* stack = std::get_if<Stack>(&design.texture.kind);
+    if (!as_designed(c, design.texture, grid, *narrowest)) {
       out.faults.push_back(narrow);
-    } else if (std::holds_alternative<Stack>(design.texture.kind)) {
+    } else if (stack && !one_mask_is_as_narrow(c, *stack, grid, *narrowest)) {
       out.notes.push_back(
           narrow +
           ", as the design is: each part of the stack alone keeps the limit, made by a "

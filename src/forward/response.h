@@ -87,7 +87,7 @@ struct ResponsePoint : PointQuantities {
   double field_correction = 1;        // factor on the pull of the field rule. Eq. electrostatics.17
   std::optional<double> field_error;  // relative, of the pull; none: not measured
   double bridge_water_share = 0;      // share of the water that sits in bridges
-  // Relative, of the modulation: what `felt` takes for the error of a run on few skins, that of the
+  // Of F_on/F_off, relative: what `felt` takes for the error of a run on few skins, that of the
   // response which the run is moved from. None: the point's own error. Eq. metrics.7
   std::optional<double> felt_error{};
   ModelStatus status;

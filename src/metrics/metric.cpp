@@ -160,11 +160,11 @@ Measured adhesion(const ResponsePoint& point) {
 }
 
 // Eq. metrics.7, Eq. metrics.8: whether the effect is felt there is yes or no, and known as well as
-// the modulation is; each part of its error has its share in that. relative: the error of a run on
-// few skins, which is not its own.
-Measured felt(const Measured& modulation, std::optional<double> relative, double threshold) {
+// the modulation is; each part of its error has its share in that. of_ratio: the relative error of
+// F_on/F_off of a run on few skins, which is not its own.
+Measured felt(const Measured& modulation, std::optional<double> of_ratio, double threshold) {
   const double above = modulation.value - threshold,
-               se = relative ? *relative * std::abs(modulation.value) : modulation.se();
+               se = of_ratio ? *of_ratio * (1 + modulation.value) : modulation.se();
   if (se <= 0) return {above > 0 ? 1.0 : 0.0, {}};
   const double p = normal_cdf(above / se), spread = std::sqrt(p * (1 - p));
   Measured out{p, {.sampling = spread * modulation.parts.sampling / se}};

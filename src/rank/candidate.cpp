@@ -11,7 +11,6 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "estimate/belief.h"
-#include "estimate/parameters.h"
 #include "scene/uncertainty.h"
 
 namespace papilla::rank {
@@ -150,16 +149,13 @@ void Candidate::step() {
   const bool believed = !scene_.finger.belief.empty();
   Fidelity few = model_cost(scene_, fidelity_of(design_)).fidelity;
   few.threads = options_.threads;
-  const std::vector<ResponsePoint> own = respond(scene_, fidelity_, patches_).points;
   const auto moved = [&](const std::function<void(Scene&)>& move) {
     Scene scene = scene_;
     move(scene);
     PatchSet patches;
     std::vector<RegionLaws> known;
     solve(move, few, patches, known);
-    Resampled out(respond(scene, few, patches));
-    take_felt_errors(out, own);
-    return out;
+    return Resampled(respond(scene, few, patches));
   };
   Response runs;
   if (!believed) {

@@ -23,7 +23,7 @@ class Candidate {
   const std::vector<double>& samples(std::size_t criterion) const { return pseudo_[criterion]; }
 
   // What each member of the finger's belief, or without one each step of its parameters, does to
-  // each criterion; after a batch. Eq. ranking.5, ranking.8
+  // each criterion. Eq. ranking.5, ranking.8
   void step();
   const StepSamples& steps(std::size_t criterion) const { return steps_[criterion]; }
   std::vector<double> member_weights() const;    // of belief; empty: the finger has none

@@ -76,10 +76,7 @@ bool has_choice(const Decision& d) { return d.designs.size() > 1; }
 // A value of it in its unit. more: what stands behind that.
 std::string in_worth(const ResultFiles& f, const std::string& words, double value,
                      const std::string& more) {
-  const PickRule& rule = decision_of(f).rule;
-  ShownUnit shown;
-  if (rule.kind == PickRule::Kind::Objective)
-    shown = shown_unit(f.problem.objectives()[rule.index].expression);
+  const ShownUnit shown = unit_of_worth(f.problem, decision_of(f).rule);
   return stated(
       bare_number(words, value * shown.scale, shown.unit, kOfBelief, kOfDecision),
       significant(value * shown.scale, 2) + (shown.unit.empty() ? "" : " " + shown.unit) + more);

@@ -112,15 +112,17 @@ std::vector<Dielectric> Surface::layers() const { return {dielectric.begin(), di
 
 std::vector<Dielectric> Surface::thinnest_layers(const FilmGround& ground) const {
   std::vector<Dielectric> out = layers();
+  std::size_t coats = 0;  // the first layer that the texture does not end in
   if (const int carrying = carrying_layer(); carrying >= 0) {
-    double& thickness = out[static_cast<std::size_t>(carrying)].thickness;
-    thickness = std::max(0.0, thickness - ground.deepest);
-    return out;
+    coats = static_cast<std::size_t>(carrying);
+    out[coats].thickness = std::max(0.0, out[coats].thickness - ground.deepest);
+    ++coats;
   }
   // Layers of one step coverage erode the surface together like one of their whole thickness.
   double directional = 0;
-  for (const FilmDielectric& layer : dielectric) {
-    if (layer.made_by(process) == FilmProcess::Directional) directional += layer.thickness;
+  for (std::size_t k = coats; k < out.size(); ++k) {
+    if (dielectric[k].made_by(process) == FilmProcess::Directional)
+      directional += dielectric[k].thickness;
   }
   if (directional <= 0) return out;
   // From the foot of the wall; a low one does not come below the film on the land beside it.
@@ -128,7 +130,7 @@ std::vector<Dielectric> Surface::thinnest_layers(const FilmGround& ground) const
       std::max(std::cos(ground.steepest), 1 - ground.height / directional);  // of the normal on z
   const double left = std::sqrt(square(along) + square(step_coverage) * (1 - square(along)));
   constexpr double kNoFilm = 1e-10;  // [m] thinner than an atom: the wall is bare
-  for (std::size_t k = 0; k < out.size(); ++k) {
+  for (std::size_t k = coats; k < out.size(); ++k) {
     if (dielectric[k].made_by(process) != FilmProcess::Directional) continue;
     double& thickness = out[k].thickness;
     thickness = left * directional > kNoFilm ? left * thickness : 0;

@@ -115,8 +115,9 @@ struct Surface {
   double equivalent_thickness() const;     // sum of d/eps [m]
   double dielectric_thickness() const;     // of all layers [m]
   std::vector<Dielectric> layers() const;  // without how they were made
-  // Those on the shortest way from the surface to the electrode: over the deepest place of a planar
-  // layer; else past a wall, on which directional layers are thin. Eq. electrostatics.9
+  // Those on the shortest way from the surface to the electrode: at the foot of a wall, over the
+  // deepest place of a planar layer and past directional ones, which are thin there.
+  // Eq. electrostatics.9
   std::vector<Dielectric> thinnest_layers(const FilmGround& ground) const;
   double saturated_air_field() const { return scene::saturated_air_field(layers()); }
   // The layer that a texture is cut into or imprinted on; -1: none is planar.

@@ -358,6 +358,11 @@ PickRule decision_rule(const StudyProblem& problem, const std::string& rule) {
   return decided_rule(rule, names, problem.judged_at_amplitude());
 }
 
+ShownUnit unit_of_worth(const StudyProblem& problem, const PickRule& rule) {
+  if (rule.kind != PickRule::Kind::Objective) return {};
+  return shown_unit(problem.objectives()[rule.index].expression);
+}
+
 Decision decide(const StudyProblem& problem, const std::vector<FinalDesign>& finalists,
                 const std::string& rule) {
   Decision out;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/rooms.h"
+#include "metrics/shown.h"
 #include "search/pick.h"
 #include "search/problem.h"
 #include "search/prospects.h"
@@ -59,6 +60,9 @@ std::vector<bool> on_front_of_belief(const StudyProblem& problem,
 // that alone, as its front without belief is one design. rule: of OptimiseOptions::pick; that of a
 // number is the usual one. Eq. search.14
 PickRule decision_rule(const StudyProblem& problem, const std::string& rule);
+
+// What worths and regrets are shown in: the unit of a single objective, else none.
+ShownUnit unit_of_worth(const StudyProblem& problem, const PickRule& rule);
 
 // What designs are worth to a rule at each member. ranges: for the knee.
 MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDesign>& designs,

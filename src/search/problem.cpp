@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <set>
 
 #include "base/digest.h"
 #include "base/files.h"
@@ -43,6 +42,20 @@ double smallest_feature_of(const DesignSpace& space, const StudyConstraints& con
     consider(unit);
   }
   return out;
+}
+
+// A design with what is in its files in the place of their names: where a folder and its maps were
+// copied to, it is the same.
+std::string content_of(Design design) {
+  std::string files;
+  for (std::string* name : map_files(design)) {
+    const MapName map = map_name(*name);
+    files += sha256(read_bytes(map.file)) + " " + map.channel + "\n";
+    name->clear();
+  }
+  if (!design.finger.belief.empty()) files += belief_text(belief_of(design.finger));
+  design.finger.belief.clear();
+  return to_toml(design) + files;
 }
 
 }  // namespace
@@ -152,8 +165,8 @@ bool StudyProblem::feasible(const Score& score, const Design& design) const {
 }
 
 std::string StudyProblem::identity() const {
-  std::string out =
-      fmt::format("papilla {}, records {}\n", PAPILLA_VERSION, kProtocol) + to_toml(study_.design);
+  std::string out = fmt::format("papilla {}, records {}\n", PAPILLA_VERSION, kProtocol) +
+                    content_of(study_.design);
   for (const Variable& v : study_.variables) {
     out += fmt::format("{} {:a} {:a}", v.path, v.low, v.high);
     for (double c : v.choices) out += fmt::format(" {:a}", c);
@@ -171,17 +184,12 @@ std::string StudyProblem::identity() const {
   out += study_.objective.risk + "\n";
   for (const Constraint& c : study_.constraints)
     out += fmt::format("{} {:a}\n", limit_name(c.on), c.limit);
-  std::set<std::string> maps;
   for (const StudyTask& t : tasks_) {
-    Design under = study_.design;
-    under.finger = t.finger;
-    for (const std::string* file : map_files(under)) maps.insert(map_name(*file).file);
-    out += fmt::format("{} {:a}\n", t.name, t.weight) + to_toml(t.finger);
-    if (!t.finger.belief.empty()) out += belief_text(belief_of(t.finger));
+    Design touched_by;
+    touched_by.finger = t.finger;
+    out += fmt::format("{} {:a}\n", t.name, t.weight) + content_of(touched_by);
     for (const Setting& s : t.settings) out += fmt::format("{} {:a}\n", s.path, s.value);
   }
-  // By what is in them: a run is resumed where its folder and its maps were copied to.
-  for (const std::string& file : maps) out += sha256(read_bytes(file)) + "\n";
   return out +
          fmt::format("{} {} {}\n", study_.search.method, study_.search.seed, study_.search.drafts);
 }

@@ -113,11 +113,13 @@ double freedom_of(const std::vector<std::vector<double>>& of_skins, std::size_t 
                       seen - 1 / (static_cast<double>(of_skins.size()) - 1));
 }
 
-// A standard normal number a skin, wider as few skins know their own scatter badly: Student's
-// distribution of them all together.
-std::vector<double> drawn_skins(RandomStream& random, std::size_t skins) {
-  std::vector<double> out(skins);
+// A standard normal number for each of by_skin, wider as few skins know their own scatter badly:
+// Student's distribution of them all together.
+std::vector<double> drawn_skins(RandomStream& random, const MemberWorth& d, std::size_t numbers) {
+  std::vector<double> out(numbers);
   for (double& z : out) z = random.normal();
+  const std::size_t skins = d.skins.value_or(numbers);
+  if (skins < 2) return out;
   double squares = 0;
   for (std::size_t k = 1; k < skins; ++k) squares += square(random.normal());
   for (double& z : out) z *= std::sqrt(static_cast<double>(skins - 1) / squares);
@@ -177,7 +179,8 @@ MemberWorth over_skins(const MemberWorth& all) {
   MemberWorth out;
   RandomStream random(1, "decision");
   for (std::size_t m = 0; m < all.weights.size(); ++m) {
-    for (int draw = 0; draw < kDraws; ++draw) add_draw(all, m, drawn_skins(random, skins), out);
+    for (int draw = 0; draw < kDraws; ++draw)
+      add_draw(all, m, drawn_skins(random, all, skins), out);
   }
   return out;
 }
@@ -216,6 +219,7 @@ void add_field_moves(const std::vector<WorthBySkin>& confirmed, const std::vecto
                      const std::vector<std::vector<double>>& correlation, bool in_proportion,
                      MemberWorth& designs) {
   const std::size_t n = moves.size();
+  if (!designs.skins) designs.skins = skins_of(designs);
   if (std::all_of(moves.begin(), moves.end(), [](double move) { return move == 0; })) return;
   const std::vector<std::vector<double>> root = correlation_root(correlation);
   const std::size_t skins = skins_of(designs);
@@ -306,6 +310,7 @@ void combine_levels(const std::vector<WorthBySkin>& confirmed, const std::vector
       for (std::size_t s = 0; s < skins; ++s) by_skin[s] = member[s][k] - corrected * levels[s][k];
     }
   }
+  designs.skins = skins_of(designs);
 }
 
 void shrink_moves(const std::vector<WorthBySkin>& own, bool in_proportion, MemberWorth& designs) {
@@ -443,7 +448,7 @@ SettledSkins settled_skins(const MemberWorth& designs, const BeliefRisk& risk, d
   for (int draw = 0; draw < draws; ++draw) {
     MemberWorth drawn;
     if (skins >= 2) {
-      const std::vector<double> z = drawn_skins(random, skins);  // of all members at once
+      const std::vector<double> z = drawn_skins(random, designs, skins);  // of all members at once
       for (std::size_t m = 0; m < designs.weights.size(); ++m) add_draw(designs, m, z, drawn);
     }
     const std::vector<Prospect> found = prospects(skins < 2 ? designs : drawn, risk);

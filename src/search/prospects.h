@@ -33,6 +33,8 @@ struct MemberWorth {
   // to its variance. Designs share their skins, so much of it is common to them. Empty: the worth
   // has no sampling error.
   std::vector<std::vector<std::vector<double>>> by_skin{};
+  // How many skins know that error, where other errors stand in by_skin too; none: all of them.
+  std::optional<std::size_t> skins{};
   // Where members are draws of others: which each is a draw of. Draws of one share its limits, and
   // it counts once where members tell designs apart. Empty: each is its own.
   std::vector<std::size_t> draw_of{};

@@ -13,6 +13,7 @@
 #include "metrics/shown.h"
 #include "optim/pareto.h"
 #include "report/json.h"
+#include "search/decision.h"
 #include "search/records.h"
 #include "search/run.h"
 #include "studio/child.h"
@@ -359,6 +360,8 @@ Json SearchDesk::json() const {
     objectives.push_back(
         {{"name", o.name}, {"maximise", o.maximise}, {"scale", shown.scale}, {"unit", shown.unit}});
   }
+  // Of the regret by belief; the desk's runs are asked for no rule.
+  const ShownUnit worth = unit_of_worth(problem, decision_rule(problem, ""));
   std::vector<Evaluation> tried;
   for (const Found& f : found_) {
     tried.push_back({f.unit, f.judgement.outcome});
@@ -385,6 +388,7 @@ Json SearchDesk::json() const {
   out["fingers"] = Json::array();
   for (const auto& task : problem.tasks()) out["fingers"].push_back(task.name);
   out["objectives"] = objectives;
+  out["worth"] = {{"scale", worth.scale}, {"unit", worth.unit}};
   out["points"] = points;
   out["front"] = pareto_front(tried);
   out["confirmed"] = front_json();

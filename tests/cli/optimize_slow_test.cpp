@@ -67,7 +67,8 @@ TEST(Optimize, TheLossOfARankIsResumed) {
   Workplace place;
   if (!has_mpi(place)) GTEST_SKIP() << "no MPI here";
   const Outcome lost = place.shell(
-      "cp '" PAPILLA_PROGRAM "' papilla_here; cp \"$(dirname '" PAPILLA_PROGRAM
+      "export PAPILLA_DESIGNS='" PAPILLA_SOURCE_DIR "/designs'; cp '" PAPILLA_PROGRAM
+      "' papilla_here; cp \"$(dirname '" PAPILLA_PROGRAM
       "')\"/papilla_*.so .; cp -d \"$(dirname '" PAPILLA_PROGRAM "')\"/libpapilla.so* .; " +
       kLaunch + "-n 3 ./papilla_here --quiet optimize '" + kStudy + "' --out run & launcher=$!; " +
       kUntilJournal +

@@ -101,8 +101,8 @@ TEST(BeliefParts, OfTheShearStrengthAreItsOwnAndTheModulationsNone) {
     EXPECT_LT(*p.modulation.parts.model, 1e-12);
     EXPECT_FALSE(p.friction_off.parts.parameters);
     // Of its runs what is felt takes the response's error of the modulation.
-    EXPECT_NEAR(r.belief.own.points[i].felt_error.value(), p.modulation.se() / p.modulation.value,
-                1e-12);
+    EXPECT_NEAR(r.belief.own.points[i].felt_error.value(),
+                p.modulation.parts.numerical() / (1 + p.modulation.value), 1e-12);
     EXPECT_EQ(r.belief.members[0].run.without.at(0)[i].felt_error,
               r.belief.own.points[i].felt_error);
     const auto over = *belief_values_at(i, kFriction, r);

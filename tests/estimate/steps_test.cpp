@@ -130,11 +130,13 @@ TEST(Steps, OfTheFingersParametersAreInEveryNumberAndInTheCost) {
   const Measured& known = r.points[0].modulation;
   for (const ParameterStep& step : r.parameters.steps) {
     for (const Resampled& run : {step.up, step.down})
-      EXPECT_NEAR(run.points[0].felt_error.value(), known.se() / known.value, 1e-12);
+      EXPECT_NEAR(run.points[0].felt_error.value(), known.parts.numerical() / (1 + known.value),
+                  1e-12);
   }
 }
 
-// A modulation of nothing has no error in proportion; no other number of the run changes.
+// As a share of F_on/F_off, without what the steps themselves say; no other number of the run
+// changes.
 TEST(Steps, WhatIsFeltOfARunTakesTheErrorOfItsResponse) {
   const auto points = [](double first, double second, double error) {
     std::vector<ResponsePoint> out(2);
@@ -144,11 +146,13 @@ TEST(Steps, WhatIsFeltOfARunTakesTheErrorOfItsResponse) {
   };
   Resampled run{points(0.19, 0.1, 0.006), {points(0.18, 0.1, 0.006)}};
   const Resampled before = run;
-  take_felt_errors(run, points(-0.25, 0, 0.04));
-  EXPECT_NEAR(run.points[0].felt_error.value(), 0.16, 1e-12);
-  EXPECT_NEAR(run.without[0][0].felt_error.value(), 0.16, 1e-12);
-  EXPECT_FALSE(run.points[1].felt_error);
-  run.points[0].felt_error.reset();
+  std::vector<ResponsePoint> response = points(-0.2, 0, 0.04);
+  response[1].modulation.parts.parameters = 0.1;
+  take_felt_errors(run, response);
+  EXPECT_NEAR(run.points[0].felt_error.value(), 0.05, 1e-12);
+  EXPECT_NEAR(run.without[0][0].felt_error.value(), 0.05, 1e-12);
+  EXPECT_NEAR(run.points[1].felt_error.value(), 0.04, 1e-12);
+  for (ResponsePoint& point : run.points) point.felt_error.reset();
   EXPECT_EQ(run.points, before.points);
 }
 

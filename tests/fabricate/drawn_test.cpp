@@ -161,6 +161,12 @@ TEST(Sides, AreWholePeriodsAndSaidWhereTheyAreOthers) {
   expect_cells(drawn(Texture{hexagons}, 3e-6, 0), 1, 1, 3e-6, row);
   expect_cells(drawn(Texture{hexagons}, 12e-6, 0), 4, 2, 12e-6, 2 * row);
   EXPECT_EQ(drawn(Texture{hexagons}, 12e-6, 0).warning(), "");  // its height is that of its rows
+  // Grooves of 6 um beside hexagons of 2 um: 6 x 3.46 um, of which 10.39 um are three.
+  hexagons.period = 2e-6;
+  Stack fine;
+  fine.parts = {Texture{Grating{.period = 6e-6, .width = 2e-6}}, Texture{hexagons}};
+  expect_cells(drawn(Texture{fine}, 12e-6, 0), 2, 3, 12e-6, 2 * row);
+  expect_cells(drawn(Texture{fine}, 6e-6, 0), 1, 3, 6e-6, 2 * row);
   // What does not repeat has no cells, and is as large as it must be.
   const Texture film{ParticleFilm{.radius = 1e-6}};
   EXPECT_EQ(drawn(film, 5e-6, 0).out.cells_x, 0);

@@ -359,5 +359,31 @@ TEST(Verify, NotesWhatTwoPartsOfAStackLeaveBetweenThem) {
   EXPECT_EQ(verify_export(study, file, 0.05).faults.size(), 1u);
 }
 
+// Holes of 2 um in 4 um keep 1.95 um of land; rims of 0.8 um take some of it half-way down, with
+// nothing beside them as much as without a stack.
+TEST(Verify, NotesNothingOfAStackThatOnePartIsByItself) {
+  Study study;
+  study.design.environment.relative_humidity = {0.35};
+  Stack alone;
+  alone.parts = {Texture{HoleArray{.period = 4e-6,
+                                   .diameter = 2e-6,
+                                   .depth = 200e-9,
+                                   .wall_angle = kPi * 80 / 180,
+                                   .edge_radius = 0.8e-6}},
+                 Texture{}};
+  study.design.texture = Texture{alone};
+  study.constraints = {read_constraint("min_wall", 1.95e-6)};
+  ExportOptions options;
+  options.formats = {"gsf"};
+  options.size = 12e-6;
+  options.pixels = 480;
+  const std::string folder = temporary("verify_rims");
+  const std::string file = export_design(study.design, options, folder).files.at(0).path;
+  const Verification found = verify_export(study, file, 0.05);
+  EXPECT_LT(found.pixels.min_wall, 1.95e-6 - found.pixels.pixel);
+  EXPECT_TRUE(found.faults.empty()) << found.faults.front();
+  EXPECT_TRUE(found.notes.empty()) << found.notes.front();
+}
+
 }  // namespace
 }  // namespace papilla::tests::verify_test

@@ -229,7 +229,8 @@ TEST(MeasuredMap, InAStackIsTakenInWholePeriods) {
   EXPECT_NE(refused(beside(6e-6, 10e-6))
                 .find("texture.parts.1.patch: " + file +
                       ": as_is says that it repeats after 10 x 10 um, and the 12 x 12 um of the "
-                      "stack that it is a part of are no whole number of them"),
+                      "stack that it is a part of are no whole number of them: a step would be "
+                      "left at the border; give the period of the map as its patch"),
             std::string::npos)
       << refused(beside(6e-6, 10e-6));
   for (const auto& [period, side, patch] :
@@ -238,6 +239,22 @@ TEST(MeasuredMap, InAStackIsTakenInWholePeriods) {
     EXPECT_EQ(refused(texture), "");
     EXPECT_NEAR(simulated_patch(texture, 64).lx, patch, 1e-15);
     EXPECT_NEAR(simulated_patch(texture, 64).ly, patch, 1e-15);
+  }
+  // Along either side of its own: three by two of a map on grooves of 18 um and holes of 2 um.
+  Stack grooves = std::get<Stack>(beside(2e-6, 6e-6).kind);
+  grooves.parts.push_back(Texture{Grating{.period = 18e-6, .width = 6e-6}});
+  EXPECT_EQ(refused({grooves}), "");
+  EXPECT_NEAR(simulated_patch({grooves}, 64).lx, 18e-6, 1e-15);
+  EXPECT_NEAR(simulated_patch({grooves}, 64).ly, 12e-6, 1e-15);
+  // No period helps a square beside hexagons, whether it is longer than theirs or not.
+  for (const double side : {6e-6, 18e-6}) {
+    Stack hexagons = std::get<Stack>(beside(6e-6, side).kind);
+    std::get<HoleArray>(hexagons.parts[0].kind).lattice = Lattice::Hexagonal;
+    EXPECT_NE(refused({hexagons})
+                  .find("a square patch fits no hexagonal lattice: take a square "
+                        "lattice, or a map whose own sides are whole cells of it"),
+              std::string::npos)
+        << refused({hexagons});
   }
   // The whole of it, where the patch is a square and the lattice beside it is none.
   EXPECT_EQ(refusal_of([&] {

@@ -88,6 +88,20 @@ TEST(SimulatedPatch, HasTheCellsThatAreMostLikeTheWindow) {
   expect_grid(simulated_patch(square(24e-6), 128, 512), 256, 256, 24e-6, 24e-6, "of one cell");
 }
 
+// Grooves beside finer holes: 24 x 1 um repeat, and as many of them lie side by side along y as the
+// area asks for. 24 x 6 um are those of the window: 0.69; 24 x 12 um 1.04.
+TEST(SimulatedPatch, TakesAsManyPeriodsAlongAShortSideAsItNeeds) {
+  for (const auto& [grooves, holes, lx, ly] : {std::tuple{24e-6, 1e-6, 24e-6, 6e-6},
+                                               {12e-6, 2e-6, 12e-6, 12e-6},
+                                               {6e-6, 1e-6, 12e-6, 12e-6}}) {
+    Stack both;
+    both.parts = {Texture{Grating{.period = grooves, .width = 0.3 * grooves}}, square(holes)};
+    const Grid patch = simulated_patch({both}, 128);
+    EXPECT_NEAR(patch.lx, lx, 1e-15) << grooves;
+    EXPECT_NEAR(patch.ly, ly, 1e-15) << grooves;
+  }
+}
+
 // Holes and a map of one period of them are compared on the same patch. Of a map that does not
 // repeat there is one square.
 TEST(SimulatedPatch, OfAMapThatRepeatsIsThatOfAPeriod) {

@@ -339,6 +339,13 @@ TEST(Contradictions, OfAStackNameTheLatticesThatMissEachOtherAlongY) {
       "parts.0.lattice: its rows repeat after 6 um along y, which does not divide the 10.3923 "
       "um of the stack; make all lattices of it square, or all hexagonal\n");
   EXPECT_NE(said_of(stack(Combine::Sum, {holes(Lattice::Square, 12e-6), hexagons})), "");
+  // A stack within has parts, and neither a lattice nor a period.
+  const std::string along_y = said_of(
+      stack(Combine::Sum, {stack(Combine::Sum, {holes(Lattice::Square, 6e-6), lines}), hexagons}));
+  EXPECT_TRUE(along_y.starts_with("parts.0.parts: its rows repeat after 6 um along y")) << along_y;
+  const std::string along_x = said_of(stack(
+      Combine::Sum, {stack(Combine::Sum, {holes(Lattice::Hexagonal, 4e-6), Texture{}}), hexagons}));
+  EXPECT_TRUE(along_x.starts_with("parts.0.parts: 4 um does not divide")) << along_x;
   EXPECT_EQ(said_of(stack(Combine::Sum, {holes(Lattice::Hexagonal, 3e-6), hexagons})), "");
   const auto cell_of = [](std::vector<Texture> parts) {
     const Texture texture = stack(Combine::Sum, std::move(parts));
@@ -349,6 +356,8 @@ TEST(Contradictions, OfAStackNameTheLatticesThatMissEachOtherAlongY) {
   EXPECT_EQ(cell_of({lines, hexagons}), whole);
   EXPECT_EQ(cell_of({hexagons, lines}), whole);
   EXPECT_EQ(cell_of({stack(Combine::Sum, {lines, Texture{}}), hexagons}), whole);
+  // Roughness has no cell, and leaves lines as alike along y as they are.
+  EXPECT_EQ(cell_of({stack(Combine::Sum, {lines, Texture{RandomRough{}}}), hexagons}), whole);
   EXPECT_EQ(cell_of({lines, holes(Lattice::Square, 3e-6)}), (UnitCell{6e-6, 3e-6}));
   EXPECT_EQ(cell_of({lines, Texture{Grating{.period = 3e-6, .width = 1e-6}}}),
             (UnitCell{6e-6, 6e-6}));

@@ -127,8 +127,9 @@ TEST(BeliefValues, WhatSkinsScatterIsTakenOff) {
   EXPECT_NEAR(v.quantile(0) - v.quantile(1), -0.4 * share, 1e-12);
 }
 
-// .25 ± .04 of .2: felt with .89. A member of .19, run to ± .006, says .37 with the response's
-// error in proportion, and .05 with its own; what the finger as it is says of its run cancels.
+// .25 ± .04 of .2: felt with .89. A member of .19, run to ± .006, says .40 with the response's
+// error of F_on/F_off, and .05 with its own; what the finger as it is says of its run cancels.
+// Where the modulation is next to nothing its error stays what it is.
 TEST(BeliefValues, WhatIsFeltAtAMemberTakesTheErrorOfTheResponse) {
   const auto point = [](double modulation, double error) {
     ResponsePoint p;
@@ -137,18 +138,19 @@ TEST(BeliefValues, WhatIsFeltAtAMemberTakesTheErrorOfTheResponse) {
   };
   const auto run = [&](double modulation) {
     Resampled out{{point(modulation, 0.006)}, {}};
-    out.points[0].felt_error = 0.04 / 0.25;
+    out.points[0].felt_error = 0.04 / 1.25;
     return out;
   };
   Response r;
   r.driven = true;
   r.points = {point(0.25, 0.04)};
   r.belief.own = run(0.25);
-  r.belief.members = {{0.5, "", run(0.25)}, {0.5, "", run(0.19)}};
+  r.belief.members = {{0.4, "", run(0.25)}, {0.4, "", run(0.19)}, {0.2, "", run(0.01)}};
   const auto v = *belief_values(Summary::Mean, Felt{0.2}, r);
   EXPECT_NEAR(v.values[0], normal_cdf(1.25), 1e-12);
-  EXPECT_NEAR(v.values[1], normal_cdf(-0.01 / (0.16 * 0.19)), 1e-12);
-  EXPECT_NEAR(v.values[1], 0.37, 5e-3);
+  EXPECT_NEAR(v.values[1], normal_cdf(-0.01 / (0.04 * 1.19 / 1.25)), 1e-12);
+  EXPECT_NEAR(v.values[1], 0.40, 5e-3);
+  EXPECT_LT(v.values[2], 1e-6);
 }
 
 TEST(BeliefValues, QuantilesAreOfTheWeights) {

@@ -99,10 +99,10 @@ TEST(JournalText, AHeadAloneIsNoRun) {
       EXPECT_EQ(bytes_of(path), head) << before;
     }
   }
-  const std::string other =
-      path +
-      ": written for another study, seed or version of Papilla, which alone goes on with it and "
-      "verifies it; a new run needs another folder";
+  const std::string other = path +
+                            ": written for another study, seed or version of Papilla, or for its "
+                            "maps as they were, which alone goes on with it and "
+                            "verifies it; a new run needs another folder";
   for (const std::string& before :
        {std::string("papilla-journal 2 kez\n"), std::string("papilla-journal 1 key\n"),
         std::string("x"), std::string("papilla-journal 2 key2\n"), std::string(500, 'x')}) {

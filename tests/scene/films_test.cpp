@@ -84,7 +84,7 @@ TEST(Films, DirectionalLayersAreThinOnWalls) {
 }
 
 // Two directional layers are as thin on a wall as one of their sum; a conformal one beside them is
-// not thinner, and above a planar one the electrode has no walls.
+// not thinner, nor are those below a planar one.
 TEST(Films, OtherLayersBesideDirectionalOnesKeepTheirThickness) {
   Surface s;
   s.dielectric = {layer(100e-9, LayerProcess::Conformal), layer(200e-9, LayerProcess::Directional),
@@ -98,8 +98,14 @@ TEST(Films, OtherLayersBesideDirectionalOnesKeepTheirThickness) {
   s.dielectric[0].thickness = 400e-9;
   thin = s.thinnest_layers(wall);
   EXPECT_NEAR(thin[0].thickness, 150e-9, 1e-18);
+  // Of the coats above it half is left, as of those without it.
+  EXPECT_NEAR(thin[1].thickness, 100e-9, 1e-18);
+  EXPECT_NEAR(thin[2].thickness, 150e-9, 1e-18);
+  std::swap(s.dielectric[0], s.dielectric[2]);  // below a planar layer they lie on level ground
+  thin = s.thinnest_layers(wall);
+  EXPECT_EQ(thin[0].thickness, 300e-9);
   EXPECT_EQ(thin[1].thickness, 200e-9);
-  EXPECT_EQ(thin[2].thickness, 300e-9);
+  EXPECT_NEAR(thin[2].thickness, 150e-9, 1e-18);
 }
 
 // Thermal oxide of 1e14 ohm m: 1 / (2 pi 8.854e-12 3.9 1e14) = 4.6e-5 Hz, and 500 nm of it 128 nm.

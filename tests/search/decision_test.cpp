@@ -262,7 +262,8 @@ TEST(Decision, TheKneeDividesByWhatDesignsDifferByOverBelief) {
               d.ranges[1].width, 1e-12);
 }
 
-// A voltage that is searched has no samples of single skins: "over skins" is said of what has them.
+// What has no samples of single skins (felt, pull_in_margin): "over skins" is said of what has
+// them.
 TEST(Decision, SaysOverSkinsOnlyOfWhatHasSamplesOfThem) {
   const auto skinned = [](bool worst) {
     return [worst](const TaskRequest& r) {

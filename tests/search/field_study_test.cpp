@@ -120,7 +120,7 @@ TEST(FieldStudy, AConfirmedVoltageHasItsSkins) {
 }
 
 // Members are run on few skins, without control skins: what is felt there takes the error of the
-// modulation that the confirmation states, in proportion.
+// modulation that the confirmation states, as a share of F_on/F_off.
 TEST(FieldStudy, WhatIsFeltAtAMemberIsKnownAsTheConfirmedModulationIs) {
   const fs::path belief = temporary("felt_belief.toml");
   std::ofstream(belief) << "schema_version = 1\n[[member]]\nweight = 1\nhypothesis = \"weak\"\n"
@@ -135,15 +135,17 @@ TEST(FieldStudy, WhatIsFeltAtAMemberIsKnownAsTheConfirmedModulationIs) {
   f.control_skins = 2;
   const Measured known =
       evaluate(scene_of(study.design), study.design.texture, f).points.at(0).modulation;
-  study.objective.maximise = {{Summary::Mean, Felt{known.value}}};
+  const double noticed = known.value - known.se();
+  study.objective.maximise = {{Summary::Mean, Felt{noticed}}};
   const StudyProblem problem(study);
-  const double relative = known.se() / known.value;
+  const double relative = known.se() / (1 + known.value);
   const TaskAnswer answer = evaluate_steps(problem, study.design, 0, {f, true});
   ASSERT_EQ(answer.members.size(), 2u);  // the last is the finger as it is
   for (const TaskAnswer& there : answer.members) {
     ASSERT_TRUE(there.status.ok()) << there.status.text;
     const double m = there.worst;  // of the one humidity
-    EXPECT_NEAR(there.objectives.at(0).value, normal_cdf((m - known.value) / (relative * m)), 1e-9);
+    EXPECT_NEAR(there.objectives.at(0).value, normal_cdf((m - noticed) / (relative * (1 + m))),
+                1e-9);
   }
   Study plain = study;
   plain.objective.maximise = {{Summary::Mean, kModulation}};

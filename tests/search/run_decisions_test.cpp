@@ -290,15 +290,14 @@ TEST(RunDecisions, WhatDecidesTheResultIsInTheKeyOfTheJournal) {
 // By its content: a copy, or a map that was written once more, continues the run.
 TEST(RunDecisions, WhatIsInAMapIsInTheKeyOfTheJournal) {
   Study study = two_variables(12);
-  const std::string file = temporary("map_in_journal_key.npy");
-  study.design.finger.skin.map = file;
-  const auto identity = [&](const std::string& bytes) {
-    write_bytes(file, bytes);
+  const auto identity = [&](const std::string& file, const std::string& bytes) {
+    study.design.finger.skin.map = temporary(file);
+    write_bytes(study.design.finger.skin.map, bytes);
     return StudyProblem(study).identity();
   };
-  const std::string first = identity("one map");
-  EXPECT_NE(first, identity("another"));
-  EXPECT_EQ(first, identity("one map"));
+  const std::string first = identity("a.npy", "one map");
+  EXPECT_NE(first, identity("a.npy", "another"));
+  EXPECT_EQ(first, identity("b.npy", "one map"));
 }
 
 }  // namespace

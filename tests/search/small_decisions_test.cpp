@@ -377,6 +377,8 @@ TEST(Pick, OfAStudyThatFindsItsVoltagesIsTheKnee) {
   study.objective.minimise = {parse_metric("mean(friction_on)"), parse_metric("mean(friction)")};
   const StudyProblem at_amplitude(study);
   EXPECT_EQ(decision_rule(at_amplitude, "").kind, PickRule::Kind::Worst);
+  EXPECT_EQ(unit_of_worth(at_amplitude, decision_rule(at_amplitude, "")).unit, "");
+  EXPECT_EQ(unit_of_worth(at_amplitude, decision_rule(at_amplitude, "mean(friction)")).unit, "mN");
   EXPECT_EQ(pick_candidate(at_amplitude, score).worst, 0.4);
 }
 

@@ -450,7 +450,7 @@ TEST_F(LeftSearch, ShowsWhatWasFound) {
       "stage":"search","done":4,"total":12,"trouble":"","progress":null,
       "variables":[{"path":"texture.depth","unit":"nm"}],"fingers":["reference"],
       "objectives":[{"name":"mean(modulation)","maximise":true,"scale":1.0,"unit":""}],
-      "front":[3],"confirmed":[]})json"));
+      "worth":{"scale":1.0,"unit":""},"front":[3],"confirmed":[]})json"));
 }
 
 // Values are told in SI, as in its files: with them how people read them.
@@ -463,6 +463,7 @@ TEST_F(LeftSearch, TellsTheUnitsOfWhatIsWanted) {
   journal_ = head();
   EXPECT_EQ(json()["objectives"], Json::parse(R"json([{"name":"mean(friction)","maximise":true,
       "scale":1e3,"unit":"mN"}])json"));
+  EXPECT_EQ(json()["worth"], Json::parse(R"({"scale":1e3,"unit":"mN"})"));
 }
 
 TEST_F(LeftSearch, SaysHowFarItCame) {

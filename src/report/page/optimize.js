@@ -36,8 +36,12 @@ const air = (task) => JSON.stringify(task.points.map((p) => p.relative_humidity)
 const sameAir = data.designs.best.tasks.every((t) => air(t) === air(data.designs.best.tasks[0]));
 const state = { design: 'best', finger: sameAir ? 'mean' : '0' };
 const run = data.run;
-// Objectives in the units that people read: forces in mN. decimals: null of quantities, which have so many digits.
-const shownAs = (name) => ({ scale: 1, unit: '', decimals: 3, ...(run.shown || {})[name] });
+// Objectives in the units that people read: forces in mN. decimals: null of quantities, which have so many digits; by the
+// unit where the run does not say them, as those of 0.2.1.
+const shownAs = (name) => {
+  const s = { scale: 1, unit: '', ...(run.shown || {})[name] };
+  return { ...s, decimals: s.decimals !== undefined ? s.decimals : s.unit === '' ? 3 : s.unit === '%' ? 2 : null };
+};
 const called = (name) => name + (shownAs(name).unit ? ' [' + shownAs(name).unit + ']' : '');
 // Of two values; se: of the second.
 function change(v, name, se) {

@@ -13,8 +13,10 @@ export function found(search) {
   const scaled = (value, o) => (value === null || value === undefined ? value : value * o.scale);
   const second = (p, i) => other ? scaled(p.objectives[1], other) : over ? leading(p.values[place]) : i + 1;
   const known = (p) => p.x !== null && p.x !== undefined && p.y !== null && p.y !== undefined;
+  // In the unit of the worth.
+  const regret = (si) => `${round(search.worth.scale * si, 2)}${search.worth.unit ? ' ' + search.worth.unit : ''}`;
   const searched = search.points.map((p, i) => ({ x: scaled(p.objectives[0], first), y: second(p, i), evaluation: i, ok: p.ok && p.feasible, values: p.values })).filter(known);
-  const confirmed = search.confirmed.filter((r) => r['on front'] === 'yes' && r[x] !== '').map((r) => ({ x: r[x] * first.scale, y: other ? r[y] * other.scale : over ? leading(r[over.path + (over.unit ? ` [${over.unit}]` : '')]) : 0, ex: r[x + ' se'] * first.scale || 0, ey: other ? r[y + ' se'] * other.scale || 0 : 0, front: r.design, doubts: r['p(best)'] ? [round(100 * r['p(best)'], 3) + ' %', round(+r['expected regret'], 2), round(100 * r['p(every limit)'], 3) + ' %'] : [], values: search.variables.map((v) => `${entry(r[v.path + (v.unit ? ` [${v.unit}]` : '')])} ${v.unit}`) })).sort((a, b) => a.x - b.x);
+  const confirmed = search.confirmed.filter((r) => r['on front'] === 'yes' && r[x] !== '').map((r) => ({ x: r[x] * first.scale, y: other ? r[y] * other.scale : over ? leading(r[over.path + (over.unit ? ` [${over.unit}]` : '')]) : 0, ex: r[x + ' se'] * first.scale || 0, ey: other ? r[y + ' se'] * other.scale || 0 : 0, front: r.design, doubts: r['p(best)'] ? [round(100 * r['p(best)'], 3) + ' %', regret(r['expected regret']), round(100 * r['p(every limit)'], 3) + ' %'] : [], values: search.variables.map((v) => `${entry(r[v.path + (v.unit ? ` [${v.unit}]` : '')])} ${v.unit}`) })).sort((a, b) => a.x - b.x);
   const front = searched.filter((p) => on.has(p.evaluation)).sort((a, b) => a.x - b.x);
   return { searched, confirmed, front, names: [called(first), other ? called(other) : shown || 'evaluation'], objectives: search.objectives.slice(0, 2).map(called) };
 }
