@@ -158,7 +158,7 @@ void film_problems(const Texture& texture, const Surface& surface, Problems& out
 }
 
 // On a patch shorter than the waves of skin the finger is another one: of a flat surface friction
-// comes out 8 % too high on 3 um, a third on 2 um.
+// comes out 4 to 14 % too high on 3 um, as air is dry or moist (docs/how_to/scans.md).
 void patch_problems(const Design& design, Problems& out) {
   constexpr double kShortest = 3e-6;  // [m]
   const TextureFacts known = facts(design.texture);
