@@ -22,11 +22,11 @@ target_compile_definitions(papilla_options INTERFACE _GLIBCXX_ASSERTIONS)
 target_link_options(papilla_options INTERFACE LINKER:-z,relro,-z,now)
 if(NOT PAPILLA_SANITIZE AND NOT PAPILLA_FUZZERS)
   # Of tests, which are not optimised, it could not be asked.
-  set(optimised $<NOT:$<OR:$<CONFIG:Debug>,$<BOOL:$<TARGET_PROPERTY:PAPILLA_UNOPTIMISED>>>>)
+  set(optimised $<NOT:$<OR:$<CONFIG:Debug>,$<BOOL:$<TARGET_PROPERTY:PAPILLA_NOT_INSTALLED>>>>)
   target_compile_options(papilla_options INTERFACE $<${optimised}:-D_FORTIFY_SOURCE=2>)
 endif()
 # The name of a file in the message of a failed check is that below the source, not the builder's. Tests keep the whole one.
-set(distributed $<AND:$<CONFIG:Release>,$<NOT:$<BOOL:$<TARGET_PROPERTY:PAPILLA_UNOPTIMISED>>>>)
+set(distributed $<AND:$<CONFIG:Release>,$<NOT:$<BOOL:$<TARGET_PROPERTY:PAPILLA_NOT_INSTALLED>>>>)
 target_compile_options(papilla_options INTERFACE $<${distributed}:-ffile-prefix-map=${CMAKE_SOURCE_DIR}/=>)
 if(PAPILLA_FUZZERS)
   target_compile_options(papilla_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <limits>
 #include <optional>
@@ -64,6 +65,11 @@ struct UnitCell {
 
   bool operator==(const UnitCell&) const = default;
 };
+// Whether so many whole parts make a length, to a millionth of a part.
+inline bool divides(double part, double length) {
+  const double times = length / part;
+  return times > 0.5 && std::abs(times - std::round(times)) <= 1e-6;
+}
 
 // Side of the square that is simulated where nothing repeats [m].
 struct FreePatch {

@@ -101,11 +101,9 @@ Heightmap periodic_cut(const Heightmap& source, const Grid& grid, double x0, dou
   return out;
 }
 
-bool is_whole(double times) { return times > 0.5 && std::abs(times - std::round(times)) < 1e-6; }
-
 // Whether so many whole cells make the sides.
 bool whole_cells(const Grid& sides, const UnitCell& cell) {
-  return is_whole(sides.lx / cell.x) && is_whole(sides.ly / cell.y);
+  return divides(cell.x, sides.lx) && divides(cell.y, sides.ly);
 }
 
 bool same_pixels(const Grid& a, const Grid& b) {
@@ -208,7 +206,7 @@ Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& a
   if (from_corner && !fits) {
     // Rows of hexagons repeat after the root of three periods along y, which no square side does.
     const char* remedy =
-        is_whole(grid.lx / period.x)
+        divides(period.x, grid.lx)
             ? "a square patch fits no hexagonal lattice: take a square lattice, or a map whose own "
               "sides are whole cells of it"
             : "give the period of the map as its patch, or the other parts a period that divides "

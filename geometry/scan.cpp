@@ -18,13 +18,18 @@ namespace {
 
 constexpr double kFarDeviations = 8;    // of the median from the median: outliers
 constexpr double kMostOutliers = 0.02;  // of the pixels; more of them are features
+constexpr int kMostPasses = 8;  // of the plane and of the outliers about it: two do as a rule
 constexpr double kMostFilled = 0.2;
 constexpr double kMostHigh = 1e100;  // [m] of either sign: sums of their squares stay numbers
 constexpr double kNoticedTilt = 0.1 * kPi / 180;  // of a made map: a scan that was saved as one
 constexpr double kSmoothest = 0.1e-9;  // [m] rms; of superpolished glass it is 0.1 nm and more
 
-// The pixels that count: those that are numbers, then those that are no outliers either.
+// The pixels that count: those that are numbers, or those of them that are no outliers.
 using Sound = std::vector<std::uint8_t>;
+
+bool can_be_filled(std::size_t filled, std::size_t pixels) {
+  return static_cast<double>(filled) <= kMostFilled * static_cast<double>(pixels);
+}
 
 std::size_t count_unsound(const Sound& sound) {
   return static_cast<std::size_t>(std::count(sound.begin(), sound.end(), std::uint8_t{0}));
@@ -69,60 +74,86 @@ bool borders_meet(const Heightmap& h) {
                      [&](const BorderSteps& along) { return along.beside < rms && along.alike(); });
 }
 
-// To a mean of 0 in any case: bands that are blended keep their variance about it.
-void level(Heightmap& h, const Sound& sound, bool asked, ScanChanges& changes) {
+// Takes away the plane of the pixels that count: of maps that repeat and of made ones the mean
+// alone. To a mean of 0 in any case: bands that are blended keep their variance about it.
+void level(Heightmap& h, const Sound& counts, ScanChanges& changes) {
   const Grid& g = h.grid;
-  changes.repeats = !asked && borders_meet(h);
-  changes.made = !asked && changes.made;
-  const Plane plane = changes.repeats || changes.made
-                          ? Plane{mean_of(h, sound)}
-                          : plane_of(h, 0, 0, g.lx, g.ly, changes.filled > 0 ? &sound : nullptr);
+  const Sound* some = count_unsound(counts) > 0 ? &counts : nullptr;
+  const bool keeps_plane = changes.repeats || changes.made;
+  const Plane plane = keeps_plane ? Plane{mean_of(h, counts)} : plane_of(h, 0, 0, g.lx, g.ly, some);
   for (int iy = 0; iy < g.ny; ++iy) {
     for (int ix = 0; ix < g.nx; ++ix) h(ix, iy) -= plane.at(g.x(ix), g.y(iy));
   }
   if (changes.made && !changes.repeats) {
-    const Plane left = plane_of(h, 0, 0, g.lx, g.ly, changes.filled > 0 ? &sound : nullptr);
+    const Plane left = plane_of(h, 0, 0, g.lx, g.ly, some);
     changes.kept_tilt = std::atan(std::hypot(left.b, left.c));
     changes.kept_rise = std::abs(left.b) * g.lx + std::abs(left.c) * g.ly;
   }
-  changes.slope_x = plane.b;
-  changes.slope_y = plane.c;
-  changes.rise = std::abs(plane.b) * g.lx + std::abs(plane.c) * g.ly;
+  changes.slope_x += plane.b;
+  changes.slope_y += plane.c;
+  changes.rise = std::abs(changes.slope_x) * g.lx + std::abs(changes.slope_y) * g.ly;
 }
 
-// Marks what is further than the limit from the median; returns the median.
-double mark_outliers(const Heightmap& h, Sound& sound, ScanChanges& changes) {
-  const Grid& g = h.grid;
+double median_of(std::vector<double>& z) {
+  const auto middle = z.begin() + static_cast<std::ptrdiff_t>(z.size() / 2);
+  std::nth_element(z.begin(), middle, z.end());
+  return *middle;
+}
+
+// What is further from the median of the numbers than the limit is none of the sound pixels.
+struct Judged {
+  Sound sound;
+  double median;  // [m]
+};
+
+Judged judge(const Heightmap& h, const Sound& numbers) {
   std::vector<double> sorted;
   for (std::size_t i = 0; i < h.z.size(); ++i) {
-    if (sound[i]) sorted.push_back(h.z[i]);
+    if (numbers[i]) sorted.push_back(h.z[i]);
   }
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double median = *middle;
-  for (double& z : sorted) z = std::abs(z - median);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double limit = kFarDeviations * *middle;
+  Judged out{numbers, median_of(sorted)};
+  for (double& z : sorted) z = std::abs(z - out.median);
+  const double limit = kFarDeviations * median_of(sorted);
   const auto far =
       std::count_if(sorted.begin(), sorted.end(), [&](double miss) { return miss > limit; });
   // Many of them are features, not outliers: the holes of a flat land.
   if (limit <= 0 || static_cast<double>(far) > kMostOutliers * static_cast<double>(sorted.size()))
-    return median;
+    return out;
+  for (std::size_t i = 0; i < h.z.size(); ++i)
+    out.sound[i] = numbers[i] && std::abs(h.z[i] - out.median) <= limit;
+  return out;
+}
+
+// Outliers stand out of the plane of the others: a grain of dust in a corner tilts that of all
+// pixels, and a tilted map hides and makes outliers. So the plane and what counts for it are found
+// in turn, until no pixel changes sides. Eq. geometry.4
+Judged level_and_judge(Heightmap& h, const Sound& numbers, ScanChanges& changes) {
+  Judged out{numbers, 0};
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const Sound counts = std::move(out.sound);
+    level(h, counts, changes);
+    out = judge(h, numbers);
+    if (out.sound == counts) break;
+  }
+  return out;
+}
+
+// How many were replaced, how far they lay from the median, and where.
+void note_outliers(const Heightmap& h, const Sound& numbers, const Judged& judged,
+                   ScanChanges& changes) {
+  const Grid& g = h.grid;
   changes.where = {g.lx, 0, g.ly, 0};
   for (int iy = 0; iy < g.ny; ++iy) {
     for (int ix = 0; ix < g.nx; ++ix) {
       const std::size_t i = g.index(ix, iy);
-      const double miss = std::abs(h.z[i] - median);
-      if (!sound[i] || miss <= limit) continue;
-      sound[i] = 0;
+      if (!numbers[i] || judged.sound[i]) continue;
       ++changes.replaced;
-      changes.furthest = std::max(changes.furthest, miss);
+      changes.furthest = std::max(changes.furthest, std::abs(h.z[i] - judged.median));
       ScanPlace& w = changes.where;
       w = {std::min(w.x0, g.x(ix)), std::max(w.x1, g.x(ix)), std::min(w.y0, g.y(iy)),
            std::max(w.y1, g.y(iy))};
     }
   }
-  return median;
 }
 
 // The mean of the nearest square of neighbours that has sound ones.
@@ -203,28 +234,35 @@ Scan read_scan(const ScanSource& source) {
   ScanChanges& changes = out.changes;
   changes.made = read.made;
   changes.as_is = source.as_is;
+  changes.marked = read.marked;
   changes.width = h.grid.lx;
   changes.height = h.grid.ly;
   changes.pixels = h.z.size();
-  Sound sound(h.z.size());
-  for (std::size_t i = 0; i < sound.size(); ++i) sound[i] = std::isfinite(h.z[i]);
-  changes.filled = count_unsound(sound);
-  if (static_cast<double>(changes.filled) > kMostFilled * static_cast<double>(changes.pixels)) {
+  Sound numbers(h.z.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = std::isfinite(h.z[i]);
+  changes.filled = count_unsound(numbers);
+  if (!can_be_filled(changes.filled, changes.pixels)) {
     throw InputError(
-        fmt::format("{}: {} are no numbers; at most a fifth can be filled: cut the map",
-                    source.file, share_text(changes.filled, changes.pixels)));
+        fmt::format("{}: {} are no numbers{}; at most a fifth can be filled: cut the map{}",
+                    source.file, share_text(changes.filled, changes.pixels),
+                    changes.marked > 0 ? " or marked by the mask of the file" : "",
+                    changes.marked > 0 ? ", or leave --fill (texture.fill) out to take what is "
+                                         "marked as heights, as for a mask of grains"
+                                       : ""));
   }
-  for (std::size_t i = 0; i < sound.size(); ++i) {
-    if (sound[i] && std::abs(h.z[i]) > kMostHigh)
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (numbers[i] && std::abs(h.z[i]) > kMostHigh)
       throw InputError(
           fmt::format("{}: a height of {:.3g} m is no surface's", source.file, h.z[i]));
   }
-  double median = 0;
+  Judged judged{numbers, 0};
   if (!source.as_is) {
-    level(h, sound, source.level, changes);
-    median = mark_outliers(h, sound, changes);
+    changes.repeats = !source.level && borders_meet(h);
+    changes.made = !source.level && changes.made;
+    judged = level_and_judge(h, numbers, changes);
+    note_outliers(h, numbers, judged, changes);
   }
-  if (count_unsound(sound) > 0) mend(h, sound, median);
+  if (count_unsound(judged.sound) > 0) mend(h, judged.sound, judged.median);
   if (const std::string why = impossible(h); !why.empty())
     throw InputError(source.file + ": " + why + " (NPY holds m, EXR um)");
   changes.highest = *std::max_element(h.z.begin(), h.z.end());
@@ -258,7 +296,15 @@ std::string text(const std::string& file, const ScanChanges& c) {
                      1e6 * c.where.x1, 1e6 * c.where.y0, 1e6 * c.where.y1);
   }
   if (c.filled > 0)
-    out += fmt::format("; {} were no numbers and were filled", share_text(c.filled, c.pixels));
+    out += fmt::format("; {} were no numbers{} and were filled", share_text(c.filled, c.pixels),
+                       c.marked > 0 ? " or marked by the mask of the file" : "");
+  else if (c.marked > 0)
+    out +=
+        fmt::format("; the mask of the file marks {}, which are taken as heights{}",
+                    share_text(c.marked, c.pixels),
+                    can_be_filled(c.marked, c.pixels)
+                        ? " (--fill, texture.fill = true take them as not measured and fill them)"
+                        : "");
   if (c.rms > 0 && c.rms < kSmoothest) {
     out += fmt::format(
         "; its heights have an rms of {:.2g} nm, smoother than any polished surface: they are "

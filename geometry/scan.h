@@ -36,12 +36,14 @@ struct ScanChanges {
   double kept_tilt = 0, kept_rise = 0;  // of the plane that a made map keeps [rad, m]
   double rise = 0;                      // its highest less its lowest place over the map [m]
   std::size_t pixels = 0;               // of the map
-  std::size_t replaced = 0;             // further than 8 median deviations from the median
-  double furthest = 0;                  // of them from the median [m]
-  ScanPlace where;                      // that holds all of them
-  std::size_t filled = 0;               // were no numbers
-  double highest = 0;                   // place of the map as it is taken [m]
-  double rms = 0;                       // about its mean, as it is taken [m]
+  std::size_t replaced = 0;  // further than 8 median deviations from the median: in no plane
+  double furthest = 0;       // of them from the median [m]
+  ScanPlace where;           // that holds all of them
+  std::size_t filled = 0;    // were no numbers
+  // By a mask of a .gwy: among those that were filled, else taken as heights.
+  std::size_t marked = 0;
+  double highest = 0;  // place of the map as it is taken [m]
+  double rms = 0;      // about its mean, as it is taken [m]
 
   double tilt() const;  // angle of the plane [rad]
 };

@@ -43,6 +43,12 @@ int even_count(double least) {
   return n;
 }
 
+// Periods along a side that hold what the texture does not repeat, a film of particles beside a
+// lattice.
+double periods_that_hold(const FreePatch& free, double side) {
+  return std::max(1.0, std::ceil(free.least / side - 1e-6));
+}
+
 }  // namespace
 
 const std::vector<std::string>& texture_kinds() {
@@ -88,8 +94,9 @@ Grid patch_grid(const Texture& texture, int pixels, double target) {
   double lx, ly;
   if (known.cell) {
     const UnitCell& cell = *known.cell;
-    lx = cell.x * std::max(2.0, std::round(target / cell.x));
-    ly = cell.y * std::max(1.0, std::round(lx / cell.y));
+    const FreePatch& free = known.free_patch;
+    lx = cell.x * std::max({2.0, std::round(target / cell.x), periods_that_hold(free, cell.x)});
+    ly = cell.y * std::max(std::round(lx / cell.y), periods_that_hold(free, cell.y));
   } else {
     lx = ly = known.free_patch.side(target);
   }
@@ -114,11 +121,14 @@ Grid simulated_patch(const Texture& texture, int pixels, int most) {
     lx = cell.x;
     ly = cell.y;
     // Of each side on its own: the cell of grooves beside finer holes is shorter along y.
-    const auto most_periods = [](double side) {
-      return static_cast<int>(std::ceil(2 * kWindow / side));
+    const auto fewest = [&](double side) {
+      return static_cast<int>(periods_that_hold(free, side));
     };
-    for (int i = 1; i <= most_periods(cell.x); ++i) {
-      for (int j = 1; j <= most_periods(cell.y); ++j) {
+    const auto most_periods = [&](double side) {
+      return std::max(fewest(side), static_cast<int>(std::ceil(2 * kWindow / side)));
+    };
+    for (int i = fewest(cell.x); i <= most_periods(cell.x); ++i) {
+      for (int j = fewest(cell.y); j <= most_periods(cell.y); ++j) {
         const double x = i * cell.x, y = j * cell.y;
         const double unlike =
             std::abs(std::log(x * y / (kWindow * kWindow))) + 0.5 * std::abs(std::log(x / y));

@@ -46,14 +46,16 @@ Roles roles(Texture& texture);               // pointers into the texture
 inline constexpr double kWindow = 12e-6;  // side of the window of the M3 paper [m]
 
 // Smallest rectangle with a whole number of periods, n = max(2, round(target / period)) along x,
-// sampled with `pixels` along x and nearly square pixels; even counts. Eq. geometry.2
+// sampled with `pixels` along x and nearly square pixels; even counts. More periods where a film of
+// particles beside them needs a longer patch (FreePatch::least). Eq. geometry.2
 Grid patch_grid(const Texture& texture, int pixels, double target = kWindow);
 
 // The patch that is simulated: whole periods on both sides, its area as near as can be to that of
 // the window and not much longer than wide, sampled no coarser than window / pixels (to at
 // most `most` pixels a side), so that designs of different period are compared on like patches at
 // like resolution. Without relief there is no period: every flat texture has the same patch. A map
-// that repeats by itself is a period.
+// that repeats by itself is a period. What beside a period does not repeat has the patch that it
+// needs, in whole periods.
 // Half of both numbers is twice the pixel on any patch. Eq. geometry.2
 Grid simulated_patch(const Texture& texture, int pixels, int most = 1024);
 

@@ -149,12 +149,19 @@ std::vector<FitDirection> directions(const Eigen::MatrixXd& jacobian) {
   return out;
 }
 
-// Share of the data in the information on a parameter.
-double data_share(const Eigen::MatrixXd& jacobian, const FitCoordinates& c, std::size_t i) {
-  if (jacobian.size() == 0) return 0;
-  const double data = jacobian.col(static_cast<Eigen::Index>(i)).squaredNorm();
-  const double prior = c.has_prior(i) ? c.prior_slope(i) * c.prior_slope(i) : 0;
-  return data + prior > 0 ? data / (data + prior) : 0;
+// Share of a parameter's prior variance that the data take away while all others inside their
+// bounds are free: what the data say of it only together with others is no knowledge of it. Without
+// a prior all that is known is of the data. Eq. calibration.2
+double data_share(const Attempt& found, const FitCoordinates& c, std::size_t i) {
+  if (!found.has_jacobian) return 0;
+  if (!c.has_prior(i))
+    return found.jacobian.col(static_cast<Eigen::Index>(i)).squaredNorm() > 0 ? 1 : 0;
+  std::vector<bool> held = found.at_bound;
+  held[i] = false;
+  const std::vector<std::size_t> free = all_but(held);
+  const auto at = std::find(free.begin(), free.end(), i) - free.begin();
+  const double variance = inverse_information(found.jacobian, c, free)(at, at);
+  return std::clamp(1 - variance * c.prior_slope(i) * c.prior_slope(i), 0.0, 1.0);
 }
 
 // Two-sided, in standard errors.
@@ -221,7 +228,7 @@ LeastSquaresFit least_squares(const std::vector<FitParameter>& parameters, int r
     f.at_bound = found.at_bound[i];
     const double unit = c.scale(i) * (parameters[i].logarithmic ? f.value : 1);
     f.se = std::isfinite(se[i]) ? se[i] * unit : 0;
-    f.data_share = data_share(found.jacobian, c, i);
+    f.data_share = data_share(found, c, i);
     interval_by_error(c, i, best.x[i], quantile * se[i], f);
     out.parameters.push_back(f);
   }

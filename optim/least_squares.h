@@ -56,7 +56,9 @@ struct ParameterFit {
   bool low_open = false;     // the interval ends at the bound, not at the data
   bool high_open = false;
   bool at_bound = false;  // then the interval comes from the profile of the likelihood
-  double data_share = 0;  // of the information on it: 1 data alone, 0 prior alone
+  // Of what is known of it, with the others free: 1 the data alone, 0 the prior alone.
+  // Eq. calibration.2
+  double data_share = 0;
 };
 
 // One singular direction of the whitened Jacobian of the data, in units of each parameter's prior

@@ -41,7 +41,8 @@ void write_npy(const std::string& path, const Heightmap& h);
 // Binary mask, 0 or 65535: where the surface is below half its depth.
 void write_mask_tiff(const std::string& path, const Heightmap& h, Polarity polarity,
                      const FileInfo& info);
-// Preview with a colour scale from low (dark) to high (bright) and a scale bar.
+// Preview: colours from low (dark) to high (bright) with a scale bar, and below it the colour scale
+// with its heights and the length of the bar.
 void write_png(const std::string& path, const Heightmap& h);
 
 // Reads .npy (float64 or float32, either order, metres), .gsf, .exr (channel Y, um with Gwy keys),
@@ -49,12 +50,14 @@ void write_png(const std::string& path, const Heightmap& h);
 // needs Gwyddion's keys), .x3p, .gwy, .sur, .sdf, and what Gwyddion reads of other instruments
 // where it is installed. width: lateral size in x [m] where the file does not say; 0: the file must
 // say; one that contradicts it is refused. Refuses more than 2^28 pixels, sides out of 1 pm to 1
-// km, broken files, and heights that are no finite numbers unless they are to be kept.
+// km, broken files, and heights that are no finite numbers unless they are to be kept; where they
+// are, those that a mask of a .gwy marks are none either.
 enum class NotNumbers { Refused, Kept };
 struct MapAnswer {
   Heightmap map;
-  bool made = false;    // not measured: an array, or an export of this program
-  std::string channel;  // "": the file names none
+  bool made = false;       // not measured: an array, or an export of this program
+  std::string channel;     // "": the file names none
+  std::size_t marked = 0;  // pixels that a mask of a .gwy marks
 };
 MapAnswer read_map(const std::string& name, double width = 0,
                    NotNumbers not_numbers = NotNumbers::Refused);

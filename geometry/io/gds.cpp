@@ -240,9 +240,13 @@ class GdsReader {
   LayoutPolygon polygon() {
     LayoutPolygon out;
     out.layer = expect(kLayer, 2).number(0);
-    expect(kDataType, 2);
+    if (const int type = expect(kDataType, 2).number(0); type != 0)
+      fail(fmt::format("a polygon of data type {}, of a layout of ours 0", type));
     const GdsRecord points = expect(kPoints, 32);
-    const std::size_t count = points.data.size() / 8 - 1;  // the last is the first
+    const std::size_t count = points.data.size() / 8 - 1;
+    if (points.coordinate(2 * count) != points.coordinate(0) ||
+        points.coordinate(2 * count + 1) != points.coordinate(1))
+      fail("a polygon that is open: its last point is not its first");
     for (std::size_t i = 0; i < count; ++i) {
       out.outline.x.push_back(points.coordinate(2 * i));
       out.outline.y.push_back(points.coordinate(2 * i + 1));

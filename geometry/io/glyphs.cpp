@@ -12,7 +12,7 @@ namespace {
 
 struct Glyph {
   char letter;
-  std::array<unsigned, kGlyphRows> rows;  // from the top; the highest of five bits is the left one
+  GlyphRows rows;
 };
 
 constexpr std::array kGlyphs{
@@ -59,22 +59,39 @@ constexpr std::array kGlyphs{
     Glyph{'Z', {0x1F, 0x01, 0x02, 0x04, 0x08, 0x10, 0x1F}},
 };
 
-const Glyph* find_glyph(char letter) {
-  const auto found = std::find_if(kGlyphs.begin(), kGlyphs.end(),
+// Of pictures alone.
+constexpr std::array kPictureGlyphs{
+    Glyph{'%', {0x18, 0x19, 0x02, 0x04, 0x08, 0x13, 0x03}},
+    Glyph{'a', {0x00, 0x00, 0x0E, 0x01, 0x0F, 0x11, 0x0F}},
+    Glyph{'e', {0x00, 0x00, 0x0E, 0x11, 0x1F, 0x10, 0x0E}},
+    Glyph{'k', {0x10, 0x10, 0x12, 0x14, 0x18, 0x14, 0x12}},
+    Glyph{'m', {0x00, 0x00, 0x1A, 0x15, 0x15, 0x15, 0x15}},
+    Glyph{'n', {0x00, 0x00, 0x16, 0x19, 0x11, 0x11, 0x11}},
+    Glyph{'u', {0x00, 0x00, 0x11, 0x11, 0x11, 0x13, 0x0D}},
+};
+
+template <std::size_t n>
+const GlyphRows* found_in(const std::array<Glyph, n>& glyphs, char letter) {
+  const auto found = std::find_if(glyphs.begin(), glyphs.end(),
                                   [letter](const Glyph& g) { return g.letter == letter; });
-  return found == kGlyphs.end() ? nullptr : &*found;
+  return found == glyphs.end() ? nullptr : &found->rows;
 }
 
 }  // namespace
 
-bool has_glyph(char letter) { return find_glyph(letter) != nullptr; }
+const GlyphRows* glyph_rows(char letter) {
+  const GlyphRows* etched = found_in(kGlyphs, letter);
+  return etched ? etched : found_in(kPictureGlyphs, letter);
+}
+
+bool has_glyph(char letter) { return found_in(kGlyphs, letter) != nullptr; }
 
 std::vector<Polygon> glyph(char letter, std::int32_t square) {
-  const Glyph* known = find_glyph(letter);
+  const GlyphRows* known = found_in(kGlyphs, letter);
   if (!known) throw InputError(fmt::format("no glyph for the letter \"{}\"", letter));
   std::vector<Polygon> out;
   for (int row = 0; row < kGlyphRows; ++row) {
-    const unsigned bits = known->rows[static_cast<std::size_t>(row)];
+    const unsigned bits = (*known)[static_cast<std::size_t>(row)];
     const auto set = [bits](int column) {
       return column < kGlyphColumns && (bits >> (kGlyphColumns - 1 - column) & 1) != 0;
     };

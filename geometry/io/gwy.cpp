@@ -173,7 +173,7 @@ std::optional<double> metres_per(const std::string& unit) {
 
 class GwyRows : public HeightRows {
  public:
-  GwyRows(const std::string& path, std::string bytes, const std::string& channel, bool masked)
+  GwyRows(const std::string& path, std::string bytes, const std::string& channel)
       : bytes_(std::move(bytes)) {
     const GwyTree tree(bytes_, path);
     std::vector<MapChannel> channels;
@@ -202,40 +202,46 @@ class GwyRows : public HeightRows {
     scale_ = *metres_per(field.z_unit);
     at_ = field.data.at;
     const auto mask = tree.masks.find(numbers[chosen]);
-    // The converter fills what the instrument did not measure, and marks it.
-    if (masked && mask != tree.masks.end() && mask->second.data.count == pixels)
-      mask_at_ = mask->second.data.at;
+    if (mask == tree.masks.end() || mask->second.data.count != pixels) return;
+    mask_at_ = mask->second.data.at;
+    for (std::size_t i = 0; i < pixels; ++i) header_.marked += is_marked(i);
   }
 
+  void leave_out_marked() override { leaves_out_ = true; }
   void next(double* heights) override {
     const std::size_t row = static_cast<std::size_t>(header_.nx) * sizeof(double);
     std::memcpy(heights, bytes_.data() + at_, row);
     at_ += row;
-    for (int ix = 0; ix < header_.nx; ++ix) heights[ix] *= scale_;
-    if (mask_at_ == 0) return;
-    for (int ix = 0; ix < header_.nx; ++ix) {
-      double marked = 0;
-      std::memcpy(&marked, bytes_.data() + mask_at_, sizeof marked);
-      mask_at_ += sizeof marked;
-      if (marked >= 0.5) heights[ix] = std::nan("");
+    for (int ix = 0; ix < header_.nx; ++ix, ++pixel_) {
+      const bool missing = leaves_out_ && header_.marked > 0 && is_marked(pixel_);
+      heights[ix] = missing ? std::nan("") : scale_ * heights[ix];
     }
   }
 
  private:
+  bool is_marked(std::size_t pixel) const {
+    double marked = 0;
+    std::memcpy(&marked, bytes_.data() + mask_at_ + pixel * sizeof marked, sizeof marked);
+    return marked >= 0.5;
+  }
+
   std::string bytes_;
   double scale_ = 1;
-  std::size_t at_ = 0, mask_at_ = 0;
+  std::size_t at_ = 0, mask_at_ = 0, pixel_ = 0;
+  bool leaves_out_ = false;
 };
 
 }  // namespace
 
 std::unique_ptr<HeightRows> open_gwy_rows(const std::string& path, const std::string& channel) {
-  return std::make_unique<GwyRows>(path, read_bytes(path), channel, false);
+  return std::make_unique<GwyRows>(path, read_bytes(path), channel);
 }
 
 std::unique_ptr<HeightRows> converted_gwy_rows(const std::string& path, std::string bytes,
                                                const std::string& channel) {
-  return std::make_unique<GwyRows>(path, std::move(bytes), channel, true);
+  auto rows = std::make_unique<GwyRows>(path, std::move(bytes), channel);
+  rows->leave_out_marked();
+  return rows;
 }
 
 std::size_t count_of_gwy_maps(const std::string& path, std::string_view bytes) {

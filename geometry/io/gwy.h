@@ -11,7 +11,8 @@
 
 namespace papilla::geometry {
 
-// What the converter made of the file `path`: what it marks as not measured is no number.
+// What the converter made of the file `path`: it fills what the instrument did not measure and
+// marks it, and that is no number.
 std::unique_ptr<HeightRows> converted_gwy_rows(const std::string& path, std::string bytes,
                                                const std::string& channel);
 // Maps in a file of Gwyddion's.

@@ -2,6 +2,7 @@
 // whatever the size of the map. Errors: InputError.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,16 +18,24 @@ struct MapHeader {
   double lx = 0, ly = 0;               // [m]; 0: the file does not say
   bool top_first = true;               // order of the rows
   double step = 0;                     // between neighbouring levels of grey [m]; 0: real numbers
+  double black = 0, white = 0;         // heights of the lowest and the highest level of grey [m]
   std::optional<Polarity> polarity;    // where the file names one
   std::optional<double> tag_x, tag_y;  // sides by the file's pixels per length [m]
   bool made = false;                   // not measured: an array, or an export of this program
   std::string channel;                 // of a file that names what it holds
+  std::size_t marked = 0;              // pixels that a mask of the file marks
+  // Of a TIFF, what ImageJ takes of its description: "unit" of the tags, heights of levels, "c0" +
+  // "c1" * level in "vunit".
+  std::map<std::string, std::string> imagej;
 };
 
 class HeightRows {
  public:
   virtual ~HeightRows() = default;
   const MapHeader& header() const { return header_; }
+  // Pixels that a mask of the file marks are no numbers; without this they are heights: a mask may
+  // mark what was not measured, or grains.
+  virtual void leave_out_marked() {}
   // The next row in the order of the file [m]; at most header().ny times.
   virtual void next(double* heights) = 0;
 

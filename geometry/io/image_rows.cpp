@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdint>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -110,6 +111,17 @@ std::string own_line(const std::string& description) {
   return {};
 }
 
+// Names and values in the lines of a description before that.
+std::map<std::string, std::string> imagej_lines(const std::string& description) {
+  std::map<std::string, std::string> out;
+  for (const std::string& line : split(description, '\n')) {
+    if (line.starts_with(kOwnLine)) break;
+    if (const std::size_t equals = line.find('='); equals != std::string::npos)
+      out[line.substr(0, equals)] = line.substr(equals + 1);
+  }
+  return out;
+}
+
 class ImageRows : public HeightRows {
  public:
   ImageRows(const std::string& path, bool any_size)
@@ -120,7 +132,9 @@ class ImageRows : public HeightRows {
     header_.nx = spec_.width;
     header_.ny = spec_.height;
     read_gwyddion_keys();
-    const bool described = read_description(own_line(in_->text("ImageDescription")));
+    const std::string description = in_->text("ImageDescription");
+    header_.imagej = imagej_lines(description);
+    const bool described = read_description(own_line(description));
     if (spec_.whole) {
       // The codec gives black as 0 and white as 1. Signed and wider numbers have no black and white
       // that any writer states: they are levels of an instrument.
@@ -129,6 +143,7 @@ class ImageRows : public HeightRows {
         broken(file_,
                "an integer image without its height scale; multiply its levels by the height of "
                "one, and save a float image in um, a .gsf, or a .npy in m");
+      header_.black = base_, header_.white = base_ + scale_;
       header_.step = std::abs(scale_) / (spec_.sample == Sample::U16 ? 65535 : 255);
     }
     read_tags(*in_, header_.tag_x, header_.tag_y);

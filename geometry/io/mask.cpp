@@ -161,6 +161,18 @@ struct Corner {
   double x, y, h;
 };
 
+// Twice the area [nm^2], above 0 where the points go round against the clock. Of points that
+// rounding has put on one line it is 0, and a mask shop refuses such a polygon.
+std::int64_t doubled_area(const Polygon& p) {
+  std::int64_t out = 0;
+  for (std::size_t i = 2; i < p.x.size(); ++i) {  // from the first point: small numbers
+    const auto from = [](std::int32_t to, std::int32_t first) { return std::int64_t{to} - first; };
+    out += from(p.x[i - 1], p.x[0]) * from(p.y[i], p.y[0]) -
+           from(p.x[i], p.x[0]) * from(p.y[i - 1], p.y[0]);
+  }
+  return out;
+}
+
 // The part of a triangle where the height is below the level.
 void below(const std::array<Corner, 3>& t, double level, std::vector<Polygon>& out) {
   Polygon polygon;
@@ -187,7 +199,7 @@ void below(const std::array<Corner, 3>& t, double level, std::vector<Polygon>& o
     polygon.x.pop_back();
     polygon.y.pop_back();
   }
-  if (polygon.x.size() >= 3) out.push_back(std::move(polygon));
+  if (doubled_area(polygon) != 0) out.push_back(std::move(polygon));
 }
 
 }  // namespace

@@ -224,7 +224,10 @@ class OasisReader {
     if ((given & ~(kHasLayer | kHasType)) != (kHasPoints | kHasX | kHasY))
       fail("a polygon that no layout of ours has");
     if (given & kHasLayer) layer = static_cast<int>(number() & 0xffff);
-    if (given & kHasType) number();
+    if (given & kHasType) {
+      if (const std::uint64_t type = number(); type != 0)
+        fail(fmt::format("a polygon of data type {}, of a layout of ours 0", type));
+    }
     if (!layer) fail("a polygon on no layer");
     LayoutPolygon out{*layer, {}};
     if (number() != kAnyAngle) fail("a list of points that no layout of ours has");

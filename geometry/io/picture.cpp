@@ -68,10 +68,4 @@ std::vector<std::uint8_t> render_field(const Grid& grid, const std::vector<doubl
   return rgb;
 }
 
-void write_png(const std::string& path, const Heightmap& h) {
-  int width = 0, height = 0;
-  const auto rgb = render_field(h.grid, h.z, width, height);
-  write_png_rgb(path, width, height, rgb);
-}
-
 }  // namespace papilla::geometry

@@ -74,6 +74,12 @@ MapAnswer read_map(const std::string& name, double width, NotNumbers not_numbers
                      "texture, the size option of a command)");
   }
   const double said = rows->header().lx;
+  if (!(said >= 0 && rows->header().ly >= 0)) {
+    throw InputError(
+        fmt::format("cannot read {}: the file says that it is {:.6g} um wide and {:.6g} um high, "
+                    "and sides are not below 0; correct them in the file, or save it without",
+                    path, 1e6 * said, 1e6 * rows->header().ly));
+  }
   if (width > 0 && said > 0 && std::abs(width / said - 1) > 1e-6) {
     throw InputError(fmt::format(
         "cannot read {}: the file says that it is {:.6g} um wide, and {:.6g} um were given "
@@ -81,7 +87,9 @@ MapAnswer read_map(const std::string& name, double width, NotNumbers not_numbers
         "a size",
         path, 1e6 * said, 1e6 * width));
   }
-  MapAnswer out{whole_map(*rows, width), rows->header().made, rows->header().channel};
+  if (not_numbers == NotNumbers::Kept) rows->leave_out_marked();
+  MapAnswer out{whole_map(*rows, width), rows->header().made, rows->header().channel,
+                rows->header().marked};
   const Heightmap& h = out.map;
   if (!(h.grid.lx > 0 && h.grid.ly > 0 && std::isfinite(h.grid.lx) && std::isfinite(h.grid.ly))) {
     throw InputError(

@@ -91,8 +91,13 @@ class X3pRows : public HeightRows {
     check_size(path, nx, ny);
     header_.nx = static_cast<int>(nx);
     header_.ny = static_cast<int>(ny);
-    header_.lx = nx * number(axes.child("CX"), "Increment");
-    header_.ly = ny * number(axes.child("CY"), "Increment");
+    // An axis that runs against its indices: the rows or columns stand in the other order.
+    const double dx = number(axes.child("CX"), "Increment"),
+                 dy = number(axes.child("CY"), "Increment");
+    header_.lx = nx * std::abs(dx);
+    header_.ly = ny * std::abs(dy);
+    header_.top_first = !(dy < 0);
+    from_right_ = dx < 0;
     const pugi::xml_node z = axes.child("CZ");
     if (z.child_value("AxisType") != std::string("A")) fail("its heights are steps, not heights");
     set_type(z.child_value("DataType"));
@@ -116,6 +121,7 @@ class X3pRows : public HeightRows {
     sum_.add(stored_.data(), stored_.size());
     for (int ix = 0; ix < header_.nx; ++ix)
       heights[ix] = is_valid(ix) ? scale_ * height(ix) : std::nan("");
+    if (from_right_) std::reverse(heights, heights + header_.nx);
     if (++row_ < header_.ny) return;
     if (sum_.finish() != heights_sum_) fail("the sum of its heights is another");
     char more = 0;
@@ -250,6 +256,7 @@ class X3pRows : public HeightRows {
   char type_ = 'D';
   std::size_t item_ = 0;
   double scale_ = 1;
+  bool from_right_ = false;  // the first column is the last one of the map
   int row_ = 0;
   Md5 sum_;
 };

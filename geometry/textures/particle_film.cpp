@@ -8,6 +8,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/random.h"
+#include "geometry/texture.h"
 
 namespace papilla::geometry {
 namespace {
@@ -16,6 +17,33 @@ namespace {
 double disc_radius(const Particle& p, double embedding) {
   const double above = 2 * p.radius * (1 - embedding);  // height of the cap
   return above >= p.radius ? p.radius : std::sqrt(above * (2 * p.radius - above));
+}
+
+// Particles that a patch holds at least, so that a thin film is not one of no or of one particle,
+// and the patch that is simulated at most, in radii: twenty pixels a radius at 1024 a side.
+constexpr int kFewest = 4;
+constexpr double kLongest = 50;
+
+double draw_radius(const ParticleFilm& film, RandomStream& random) {
+  return film.radius * std::clamp(1 + film.radius_spread * random.normal(), 0.3, 1.7);
+}
+
+RandomStream draws(const ParticleFilm& film) {
+  return RandomStream(static_cast<std::uint64_t>(film.seed), "particles");
+}
+
+double disc_area(const Particle& p, double embedding) {
+  return kPi * square(disc_radius(p, embedding));
+}
+
+// Side of the patch that the first particles drawn cover as asked for: of a thinner film it is
+// longer, with the same particles farther apart.
+double side_of_fewest(const ParticleFilm& film) {
+  RandomStream random = draws(film);
+  double covered = 0;
+  for (int k = 0; k < kFewest; ++k)
+    covered += disc_area({0, 0, draw_radius(film, random)}, film.embedding);
+  return std::sqrt(covered / film.coverage);
 }
 
 double periodic(double d, double length) { return d - length * std::round(d / length); }
@@ -77,8 +105,8 @@ void fields(FieldVisitor& v, ParticleFilm& t) {
   v.number({"radius_spread", "%", 0, 50, "standard deviation of the radius over its mean",
             Source::Estimate, "none published"},
            t.radius_spread);
-  v.number({"coverage", "%", 0, 80, "projected share covered by particles", Source::Estimate,
-            "none published"},
+  v.number({"coverage", "%", 0, 80, "projected share covered by particles, to half of one of them",
+            Source::Estimate, "none published"},
            t.coverage);
   v.number({"embedding", "%", 0, 95, "share of the diameter below the film", Source::Estimate,
             "none published"},
@@ -88,14 +116,13 @@ void fields(FieldVisitor& v, ParticleFilm& t) {
 }
 
 std::vector<Particle> place_particles(const ParticleFilm& film, const Grid& grid) {
-  RandomStream random(static_cast<std::uint64_t>(film.seed), "particles");
+  RandomStream random = draws(film);
   std::vector<Particle> particles;
   double covered = 0;
   const double wanted = film.coverage * grid.area();
   while (covered < wanted) {
-    const double r = film.radius * std::clamp(1 + film.radius_spread * random.normal(), 0.3, 1.7);
-    const Particle p{0, 0, r};
-    const double area = kPi * square(disc_radius(p, film.embedding));
+    const Particle p{0, 0, draw_radius(film, random)};
+    const double area = disc_area(p, film.embedding);
     // The last particle is placed when that brings the coverage nearer.
     if (covered + area - wanted > wanted - covered && !particles.empty()) break;
     particles.push_back(p);
@@ -161,15 +188,26 @@ Heightmap heights(const ParticleFilm& film, const Grid& grid) {
 
 TextureProblems problems(const ParticleFilm& t) {
   // Random sequential placement of discs jams at 0.547 (Feder 1980).
-  if (t.coverage <= 0.52) return {};
-  return {{"coverage", "random non-overlapping particles jam near 55 %; use at most 52 %"}};
+  if (t.coverage > 0.52)
+    return {{"coverage", "random non-overlapping particles jam near 55 %; use at most 52 %"}};
+  constexpr double kRoundedUp = 1.05;  // two digits of it are enough
+  const double longest = std::max(kLongest * t.radius, kWindow);
+  if (!(t.coverage > 0) || side_of_fewest(t) <= longest) return {};
+  return {{"coverage",
+           fmt::format("so few particles that {} of them need a patch of {:.3g} um, which is more "
+                       "than the {:.3g} um that are simulated; use at least {:.2g} %, "
+                       "or 0 % for none",
+                       kFewest, 1e6 * side_of_fewest(t), 1e6 * longest,
+                       100 * kRoundedUp * t.coverage * square(side_of_fewest(t) / longest))}};
 }
 
 TextureFacts facts(const ParticleFilm& t) {
   const double top = t.coverage > 0 ? 2 * t.radius * (1 - t.embedding) : 0;
+  // No film is flat glass, on the patch of all that is flat.
+  const double least = t.coverage > 0 ? std::max(8 * t.radius, side_of_fewest(t)) : 0;
   return {.relief = Relief::between(0, top),
           .cell = std::nullopt,
-          .free_patch = FreePatch{8 * t.radius, std::nullopt, false},
+          .free_patch = FreePatch{least, std::nullopt, false},
           .margins = FabricationMargins::none(),
           .open_share = std::nullopt,
           .rim_radius = std::nullopt,

@@ -39,11 +39,6 @@ Relief relief_of(Combine combine, const std::vector<TextureFacts>& parts) {
   return known ? Relief::between(planes.low, planes.high) : Relief{present, std::nullopt};
 }
 
-// Whether so many whole parts make the length.
-bool divides(double part, double length) {
-  return std::abs(length / part - std::round(length / part)) <= 1e-6;
-}
-
 // Whether what repeats of a part is alike all along y: its cell is as high as what it is combined
 // with. Parts of it without a cell, rough or flat, set no height.
 bool is_uniform(const Texture& texture, const TextureFacts& known) {

@@ -18,7 +18,9 @@ struct CaseInput {
 
 struct PerssonPoint {
   double voltage = 0, load = 0, frequency = 0;  // peak [V], [N], [Hz]
-  bool collapsed = false;                       // no equilibrium below 1 GPa
+  // No equilibrium below 1 GPa, or more than its strength on the dielectric where the skin touches
+  // it: the numbers under voltage, and the capacitance, are NaN.
+  bool collapsed = false, breaks_down = false;
   // The pressure is at the hardness or beyond: the numbers under voltage mean nothing.
   bool yielded = false;
   double area_off = 0, area_on = 0;      // share of the nominal area in contact

@@ -109,7 +109,8 @@ class Search {
   Search& operator=(Search&&) noexcept;
   ~Search();
 
-  // Values of the variables of the next designs; empty: nothing more to try.
+  // Values of the variables of the next designs; empty: nothing more to try, or as many were told
+  // as search.evaluations says.
   std::vector<std::vector<double>> ask();
   // One judgement per design of the last ask, in its order. Throws InputError for another number.
   void tell(const std::vector<Judgement>& judgements);

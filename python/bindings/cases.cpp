@@ -27,6 +27,7 @@ py::dict points(const std::vector<PerssonPoint>& list) {
       "friction"_a = of(&PerssonPoint::friction), "coefficient"_a = of(&PerssonPoint::coefficient),
       "capacitance"_a = of(&PerssonPoint::capacitance),
       "collapsed"_a = flags(list, &PerssonPoint::collapsed),
+      "breaks_down"_a = flags(list, &PerssonPoint::breaks_down),
       "yielded"_a = flags(list, &PerssonPoint::yielded));
 }
 
@@ -40,10 +41,10 @@ void bind_cases(py::module_& module) {
             run_job([input = CaseInput{file, toml, values}](Job&) { return persson(input); });
         return py::dict(
             "rms"_a = r.rms, "slope"_a = r.slope, "contact_modulus"_a = r.contact_modulus,
-            "collapsed"_a = r.point.collapsed, "yielded"_a = r.point.yielded,
-            "point"_a = points({r.point}), "over_voltage"_a = points(r.over_voltage),
-            "over_load"_a = points(r.over_load), "over_frequency"_a = points(r.over_frequency),
-            "json"_a = r.json, "table"_a = r.table);
+            "collapsed"_a = r.point.collapsed, "breaks_down"_a = r.point.breaks_down,
+            "yielded"_a = r.point.yielded, "point"_a = points({r.point}),
+            "over_voltage"_a = points(r.over_voltage), "over_load"_a = points(r.over_load),
+            "over_frequency"_a = points(r.over_frequency), "json"_a = r.json, "table"_a = r.table);
       },
       py::arg("file"), py::arg("toml"), py::arg("values"));
   module.def(

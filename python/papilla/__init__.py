@@ -18,7 +18,8 @@ from papilla.physics import (Bridge, Contact, Drive, Droplets, Field, Persson, b
 from papilla.quantity import Quantity
 from papilla.response import Comparison, Difference, Differences, Response, Sensitivity
 from papilla.scans import Scan, Spectrum, read_scan, roughness, spectrum
-from papilla.study import Decision, FoundDesign, Judgement, Objective, Point, Prospect, Run, Study, Variable
+from papilla.study import (Decision, FoundDesign, Judgement, Objective, Point, Prospect, Recommendation, Run, Study,
+                           Variable)
 from papilla.sweeps import Sweep, sweep
 from papilla.trades import (Calibration, Exported, FileVerdict, FittedParameter, FolderVerdict, Ranked, Ranking,
                             calibrate, rank, verify)
@@ -27,7 +28,7 @@ __all__ = [
     "Batch", "Bridge", "Calibration", "Comparison", "Contact", "Decision", "Design", "Difference", "Differences",
     "Drive", "Droplets", "Experiment", "Exported", "Field", "FileVerdict", "FittedParameter", "FolderVerdict",
     "FoundDesign", "Heights", "InputError", "Judgement", "Lab", "Look", "Number", "Objective", "Persson", "Point",
-    "Problem", "Prospect", "Quantity", "Ranked", "Ranking", "Response", "Run", "Scan", "Sensitivity", "Spectrum",
-    "Stopped", "Study", "Sweep", "Told", "Variable", "__version__", "bridge", "calibrate", "compare", "contact",
+    "Problem", "Prospect", "Quantity", "Ranked", "Ranking", "Recommendation", "Response", "Run", "Scan", "Sensitivity",
+    "Spectrum", "Stopped", "Study", "Sweep", "Told", "Variable", "__version__", "bridge", "calibrate", "compare", "contact",
     "drive", "droplets", "field", "haze", "persson", "rank", "read_scan", "roughness", "spectrum", "sweep", "verify",
 ]

@@ -8,6 +8,7 @@ import re
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from datetime import date as calendar_date
 from typing import Any, Union
 
 from papilla import _native, values as v
@@ -15,7 +16,7 @@ from papilla.design import Design
 from papilla.errors import InputError, Problem, wrong
 from papilla.progress import Progress, shown
 from papilla.study import Run
-from papilla.values import Path
+from papilla.values import Path, Quantified
 
 Source = Union[Path, Design, Run]
 
@@ -137,13 +138,14 @@ class Lab:
     @classmethod
     def open(cls, sources: Source | Sequence[Source], folder: Path, *, belief: Path = "", worth: str = "", load: str = "",
              humidity: str = "", voltage: str = "", frequency: str = "", states: str = "", purpose: str = "",
-             count: int = 10, seconds: float = 0, finger: str = "1", date: str = "", threads: int = 0,
+             count: int = 10, seconds: Quantified = 0, finger: str = "1", date: str = "", threads: int = 0,
              names: Sequence[str] = (), values: Mapping[str, Any] | None = None, progress: Progress = None) -> Lab:
         """A new lab with its first batch: ``papilla next``.
 
         sources: a folder of results or a Run, a wafer's manifest.csv, designs or their files, a calibration. load, humidity, voltage, frequency,
         states: what can be set, lists as "15 %,75 %"; empty: the designs' own. purpose: "decision", "hypotheses",
-        "parameters". count: touches, at most. seconds: of work, at most. names: of the sources that are a Design, in their order; without
+        "parameters". count: touches, at most. seconds: of work, at most, 0: no limit. date: of today, "2026-03-01";
+        empty: today's. names: of the sources that are a Design, in their order; without
         them their titles name them. values: of lab.toml, before anything is planned:
         ``{"instrument.repeatability": "2 %", "costs.reading": "2 min"}``. Raises InputError, KeyboardInterrupt.
         """
@@ -152,19 +154,20 @@ class Lab:
         with tempfile.TemporaryDirectory() as beside:
             found, stop, table, document = _native.next_experiments(
                 _paths(sources, names, beside), v.path(folder, "folder"), v.text(purpose, "purpose"),
-                v.whole(count, "count", 1, 1000), float(seconds), v.path(belief, "belief"), v.text(worth, "worth"),
-                conditions, v.settings(values), v.text(finger, "finger"), "", v.text(date, "date"),
+                v.whole(count, "count", 1, 1000), v.si(seconds, "s", "seconds"), v.path(belief, "belief"), v.text(worth, "worth"),
+                conditions, v.settings(values), v.text(finger, "finger"), "", _date(date),
                 v.whole(threads, "threads", 0, 4096), shown(progress, "next"))
         lab = cls(found)
         lab.batch = Batch(stop, table, json.loads(document))
         return lab
 
-    def next(self, purpose: str = "", *, count: int = 10, seconds: float = 0, finger: str = "1", day: str = "",
+    def next(self, purpose: str = "", *, count: int = 10, seconds: Quantified = 0, finger: str = "1", day: str = "",
              date: str = "", threads: int = 0, progress: Progress = None) -> Batch:
-        """The batch to measure next: ``papilla next LAB``. Raises InputError, KeyboardInterrupt."""
+        """The batch to measure next: ``papilla next LAB``. seconds: of work, at most, 0: no limit. day: of the
+        measurements, as tables name it; empty: the date. date: as of ``open``. Raises InputError, KeyboardInterrupt."""
         _, stop, table, document = _native.next_experiments(
-            [self.folder], "", v.text(purpose, "purpose"), v.whole(count, "count", 1, 1000), float(seconds), "", "",
-            [""] * 5, [], v.text(finger, "finger"), v.text(day, "day"), v.text(date, "date"),
+            [self.folder], "", v.text(purpose, "purpose"), v.whole(count, "count", 1, 1000), v.si(seconds, "s", "seconds"), "", "",
+            [""] * 5, [], v.text(finger, "finger"), v.text(day, "day"), _date(date),
             v.whole(threads, "threads", 0, 4096), shown(progress, "next"))
         self.batch = Batch(stop, table, json.loads(document))
         return self.batch
@@ -178,7 +181,7 @@ class Lab:
         kept; the others are kept all the same. Raises KeyboardInterrupt.
         """
         said = [v.text(t, n) for t, n in ((experiment, "experiment"), (field, "field"), (design, "design"),
-                                          (finger, "finger"), (day, "day"), (date, "date"))]
+                                          (finger, "finger"), (day, "day"))] + [_date(date)]
         refused, table, document = _native.tell_lab(self.folder, v.paths(files, "files"), said,
                                                     v.flag(replace, "replace"), v.whole(threads, "threads", 0, 4096),
                                                     shown(progress, "tell"))
@@ -226,6 +229,16 @@ def _paths(sources: Source | Sequence[Source], names: Sequence[str], beside: str
         else:
             out.append(v.path(source, f"sources.{i}"))
     return out
+
+
+def _date(date: str) -> str:
+    """Of the journal, where a day has one text: "20260301" is "2026-03-01" too; empty: today."""
+    if not v.text(date, "date"):
+        return ""
+    try:
+        return calendar_date.fromisoformat(date).isoformat()
+    except ValueError:
+        raise wrong("date", f'expected year, month and day as "2026-03-01", got {date!r}') from None
 
 
 def _file_name(title: str) -> str:

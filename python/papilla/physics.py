@@ -33,8 +33,8 @@ def map_of(z: Map, size: Size | None, key: str) -> tuple[FloatArray, float, floa
     return (heights, *v.pixel_size(heights.shape, size))
 
 
-@dataclass(frozen=True, repr=False)
-class Contact(v.Brief):
+@dataclass(frozen=True, eq=False, repr=False)
+class Contact(v.WithArrays):
     """A rough surface pressed on an elastic solid."""
 
     converged: bool
@@ -93,8 +93,8 @@ def _poisson(value: float, key: str) -> float:
     return number
 
 
-@dataclass(frozen=True, repr=False)
-class Bridge(v.Brief):
+@dataclass(frozen=True)
+class Bridge:
     """A liquid bridge between two plates."""
 
     exists: bool
@@ -131,8 +131,8 @@ def _angle(value: Quantified, key: str) -> float:
     return number
 
 
-@dataclass(frozen=True, repr=False)
-class Droplets(v.Brief):
+@dataclass(frozen=True, eq=False, repr=False)
+class Droplets(v.WithArrays):
     """Sweat in a gap, settled where its energy is lowest."""
 
     converged: bool
@@ -187,8 +187,8 @@ def droplets(gap: Map, size: Size | None = None, *, volume: Quantified, theta_sk
         v.flag(threshold, "threshold")))
 
 
-@dataclass(frozen=True, repr=False)
-class Field(v.Brief):
+@dataclass(frozen=True, eq=False, repr=False)
+class Field(v.WithArrays):
     """The electrostatic pull over a gap."""
 
     converged: bool
@@ -252,8 +252,9 @@ class Persson(_Case):
 
     ``point``, ``over_voltage``, ``over_load`` and ``over_frequency`` are dicts of arrays: voltage [V], load [N],
     frequency [Hz], area_off, area_on (shares), pressure and pull [Pa], mean_gap [m], friction [N], coefficient,
-    capacitance [F]; collapsed (no equilibrium below 1 GPa) and yielded (the pressure is at the hardness or beyond: the
-    numbers under voltage mean nothing) are arrays of bool.
+    capacitance [F]; collapsed (no equilibrium below 1 GPa), breaks_down (more than its strength on the dielectric where
+    the skin touches it) and yielded (the pressure is at the hardness or beyond: the numbers under voltage mean nothing)
+    are arrays of bool. Where a point is collapsed or breaks down, its numbers under voltage and its capacitance are NaN.
     """
 
     def __init__(self, columns: dict[str, Any]) -> None:
@@ -262,6 +263,7 @@ class Persson(_Case):
         self.slope: float = columns["slope"]
         self.contact_modulus: float = columns["contact_modulus"]
         self.collapsed: bool = columns["collapsed"]
+        self.breaks_down: bool = columns["breaks_down"]
         self.yielded: bool = columns["yielded"]
         self.point: dict[str, float] = {name: column[0].item() for name, column in columns["point"].items()}
         self.over_voltage: dict[str, npt.NDArray[Any]] = columns["over_voltage"]

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-from papilla.values import FloatArray
+from papilla.values import FloatArray, fixed
 
 __all__ = ["Quantity"]
 
@@ -34,6 +34,8 @@ _SLOPES: dict[np.ufunc, tuple[_Slope, ...]] = {
     np.log: (lambda a: 1 / a,),
     np.log10: (lambda a: 1 / (a * np.log(10)),),
 }
+# Functions whose answer has no error to lose.
+_OF_VALUES = {np.shape, np.ndim, np.size, np.isclose, np.allclose, np.array_equal}
 _COMPARISONS = {np.less, np.less_equal, np.greater, np.greater_equal, np.equal, np.not_equal, np.isfinite, np.isnan}
 _SUMS = {np.add, np.subtract, np.negative, np.positive, np.absolute}
 _PARTS = ("sampling", "grid", "solver", "humidity", "method", "field", "parameters", "model", "water")
@@ -51,8 +53,9 @@ class Quantity(NDArrayOperatorsMixin):
 
     Errors of different quantities are propagated to first order as if they were independent, part by part. Quantities of
     one evaluation, or of designs on the same skins, are not: for their differences ``papilla.compare`` is surer. Two
-    names of the very same object are the same number: ``q - q`` has no error. Other functions of numpy raise TypeError:
-    take ``q.value``.
+    names of the very same object are the same number: ``q - q`` has no error. Other functions of numpy (``np.mean``,
+    ``np.sin``, ``np.concatenate``) would lose the errors and raise TypeError: take ``q.value``. The arrays are read-only:
+    ``q.value.copy()`` is your own.
     """
 
     value: FloatArray
@@ -73,17 +76,27 @@ class Quantity(NDArrayOperatorsMixin):
         def whole(name: str, given: Any) -> None:
             object.__setattr__(self, name, given)
 
-        whole("value", np.asarray(self.value, dtype=np.float64))
-        whole("error", np.broadcast_to(np.asarray(self.error, dtype=np.float64), self.value.shape))
-        unstated = np.full(self.value.shape, np.nan)
-        whole("numerical", self.error if self.numerical is None else self.numerical)
-        whole("model", unstated if self.model is None else self.model)
-        whole("parts", MappingProxyType({name: self.parts.get(name, unstated) for name in _PARTS}))
+        whole("value", fixed(self.value))
+
+        def like_value(numbers: npt.ArrayLike) -> FloatArray:
+            return fixed(np.broadcast_to(numbers, self.value.shape))
+
+        whole("error", like_value(self.error))
+        whole("numerical", self.error if self.numerical is None else like_value(self.numerical))
+        unstated = like_value(np.nan)
+        whole("model", unstated if self.model is None else like_value(self.model))
+        whole("parts", MappingProxyType({name: like_value(self.parts[name]) if name in self.parts else unstated
+                                         for name in _PARTS}))
 
     @property
     def shape(self) -> tuple[int, ...]:
         """Of the values: (humidities,), or () of one item."""
         return self.value.shape
+
+    @property
+    def ndim(self) -> int:
+        """Of the values: 1, or 0 of one item."""
+        return self.value.ndim
 
     def __array__(self, dtype: npt.DTypeLike = None, copy: bool | None = None) -> npt.NDArray[Any]:
         return np.array(self.value, dtype=dtype)
@@ -91,7 +104,7 @@ class Quantity(NDArrayOperatorsMixin):
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
         if method != "__call__" or options:
             return NotImplemented
-        plain = [np.asarray(x.value if isinstance(x, Quantity) else x) for x in inputs]
+        plain = [np.asarray(_value_of(x)) for x in inputs]
         if ufunc in _COMPARISONS:
             return ufunc(*plain)
         if ufunc not in _SLOPES or any(x.dtype.kind not in "fiub" for x in plain):
@@ -107,6 +120,12 @@ class Quantity(NDArrayOperatorsMixin):
         return Quantity(value, spread(lambda q: q.error),
                         {name: spread(lambda q, name=name: q.parts[name]) for name in _PARTS},  # type: ignore[misc]
                         spread(lambda q: q.numerical), spread(lambda q: q.model), _unit(ufunc, inputs))
+
+    def __array_function__(self, function: Callable[..., Any], types: Any, inputs: tuple[Any, ...],
+                           options: dict[str, Any]) -> Any:
+        if function not in _OF_VALUES:
+            raise TypeError(f"numpy.{function.__name__} would lose the errors of a Quantity: take its .value")
+        return function(*map(_value_of, inputs), **{name: _value_of(x) for name, x in options.items()})
 
     def __getitem__(self, chosen: Any) -> Quantity:
         return Quantity(self.value[chosen], self.error[chosen], {n: p[chosen] for n, p in self.parts.items()},
@@ -141,6 +160,10 @@ class Quantity(NDArrayOperatorsMixin):
         return Quantity, (self.value, self.error, dict(self.parts), self.numerical, self.model, self.unit)
 
     __hash__ = None  # type: ignore[assignment]
+
+
+def _value_of(x: Any) -> Any:
+    return x.value if isinstance(x, Quantity) else x
 
 
 def _terms(inputs: tuple[Any, ...], slopes: list[tuple[Quantity, Any]]) -> list[tuple[Quantity, Any]]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from papilla import _native
+from papilla import _native, values as v
 from papilla.quantity import Quantity
 from papilla.values import FloatArray
 
@@ -30,7 +30,7 @@ class Response:
     """
 
     humidity: FloatArray
-    """Relative humidities, shares of 1."""
+    """Relative humidities, shares of 1. Read-only, as all arrays of a response."""
     sound: tuple[bool, ...]
     """Whether each point can be trusted."""
     status: tuple[str, ...]
@@ -43,7 +43,7 @@ class Response:
     def __init__(self, columns: dict[str, Any]) -> None:
         self._columns = columns
         self._quantities = {name: Quantity(**row, unit=_UNITS[name]) for name, row in columns["quantities"].items()}
-        self.humidity = columns["relative_humidity"]
+        self.humidity = v.fixed(columns["relative_humidity"])
         self.sound = tuple(columns["sound"])
         self.status = tuple(columns["status"])
         self.driven = columns["driven"]
@@ -81,7 +81,7 @@ class Response:
         import xarray
 
         def row(name: str, values: FloatArray, suffix: str) -> tuple[str, FloatArray, dict[str, str]]:
-            return "humidity", values, {"units": _UNITS[name] or "1", "long_name": _MEANINGS[name] + suffix}
+            return "humidity", np.array(values), {"units": _UNITS[name] or "1", "long_name": _MEANINGS[name] + suffix}
 
         data: dict[str, Any] = {}
         for name, quantity in self._quantities.items():
@@ -91,7 +91,7 @@ class Response:
             data[name + "_model"] = row(name, quantity.model, ": standard deviation over what is not known of the model")
         data["sound"] = ("humidity", np.array(self.sound))
         data["status"] = ("humidity", np.array(self.status))
-        return xarray.Dataset(data, {"humidity": ("humidity", self.humidity, {"units": "1", "long_name": "relative humidity"})})
+        return xarray.Dataset(data, {"humidity": ("humidity", np.array(self.humidity), {"units": "1", "long_name": "relative humidity"})})
 
     def plot(self, ax: matplotlib.axes.Axes | None = None, quantity: str | None = None, *,
              label: str = "") -> matplotlib.axes.Axes:
@@ -195,8 +195,8 @@ class Difference:
     """Probability by the members of belief that the second has more; NaN: not stated."""
 
 
-@dataclass(frozen=True)
-class Differences:
+@dataclass(frozen=True, eq=False, repr=False)
+class Differences(v.WithArrays):
     """The same at each humidity; arrays of shape (humidities,)."""
 
     value: FloatArray
@@ -236,7 +236,8 @@ class Comparison:
         if name not in self._columns:
             raise AttributeError(f"{name}: one of the designs has no drive; give drive.amplitude")
         found = self._columns[name]
-        return Differences(found["value"], found["error"], tuple(found["paired"]), found["model"], found["above"])
+        return Differences(v.fixed(found["value"]), v.fixed(found["error"]), tuple(found["paired"]),
+                           v.fixed(found["model"]), v.fixed(found["above"]))
 
     @property
     def modulation(self) -> Differences:

@@ -20,8 +20,8 @@ from papilla.values import FloatArray, Path, Quantified
 __all__ = ["Scan", "Spectrum", "read_scan", "roughness", "spectrum"]
 
 
-@dataclass(frozen=True, repr=False)
-class Spectrum(v.Brief):
+@dataclass(frozen=True, eq=False, repr=False)
+class Spectrum(v.WithArrays):
     """The radially averaged power spectrum of a map, of its heights tapered by a Hann window. Eq. geometry.6."""
 
     wavelength: FloatArray

@@ -21,7 +21,8 @@ from papilla.values import FloatArray, Path
 if TYPE_CHECKING:
     import pandas
 
-__all__ = ["Decision", "FoundDesign", "Judgement", "Objective", "Point", "Prospect", "Run", "Study", "Variable"]
+__all__ = ["Decision", "FoundDesign", "Judgement", "Objective", "Point", "Prospect", "Recommendation", "Run", "Study",
+           "Variable"]
 
 
 @dataclass(frozen=True)
@@ -61,8 +62,8 @@ class Objective:
     """Of its values, SI; "" of a share."""
 
 
-@dataclass(frozen=True)
-class Judgement:
+@dataclass(frozen=True, eq=False, repr=False)
+class Judgement(v.WithArrays):
     """A design as a study sees it."""
 
     ok: bool
@@ -161,6 +162,28 @@ class Decision:
     members: int
 
 
+@dataclass(frozen=True)
+class Recommendation:
+    """What a run says to build: its best design, or a surface without a texture, or nothing."""
+
+    advice: str
+    """"texture"; "finish" (a flat surface with another finish or drive), "leave flat"; "unknown": the best design, as the
+    flat surface has no answer to compare it with; "nothing": no design keeps every limit."""
+    said: str
+    """For people: the sentence below "What to build" in summary.md."""
+    textured: bool
+    """Whether what is to be built has a texture."""
+    folder: str
+    """Of what is to be built: design.toml as it was searched, build.toml with lengths on the grid of the fab; empty:
+    nothing is."""
+
+    def load(self) -> Design:
+        """The design to build, its lengths on the grid of the fab. Raises LookupError where nothing is to be built."""
+        if not self.folder:
+            raise LookupError(self.said)
+        return Design.load(os.path.join(self.folder, "build.toml"))
+
+
 class Run:
     """A search that came to its end, or was interrupted and can go on."""
 
@@ -222,10 +245,23 @@ class Run:
 
     @property
     def best(self) -> FoundDesign:
-        """As ``papilla optimize`` chose it. Raises LookupError for a search without a finalist."""
+        """The finalist that the study's ``pick``, or belief, chooses; where none keeps every limit the one that breaks
+        them least. Whether to build it is another question, which ``recommendation`` answers: it may be a surface
+        without its texture, or nothing. Raises LookupError for a search without a finalist."""
         if not self.finalists:
             raise LookupError("the search found no design")
         return self.finalists[self._best]
+
+    @property
+    def recommendation(self) -> Recommendation:
+        """What to build, as ``papilla optimize`` says it. Raises LookupError with the reason where there is none."""
+        told = self._told()
+        if "recommendation" not in told:
+            raise LookupError("the run was interrupted: optimize(..., resume=True) goes on with it" if self.interrupted
+                              else "the search found no design")
+        nothing = told["advice"] == "nothing"
+        return Recommendation(told["advice"], told["recommendation"], not nothing and told["textured"],
+                              "" if nothing else os.path.join(self.folder, "best"))
 
     @property
     def decision(self) -> Decision:
@@ -342,15 +378,17 @@ class Study:
     def judge(self, values: Values, *, threads: int = 0) -> Judgement:
         """The model on every finger and scenario, as accurately as a search: a second or less.
 
-        The numbers are for ranking designs: at the coarse level of searches friction lies about a fifth above that of
-        ``evaluate``. ``errors`` hold the scatter between skins, not that difference.
+        The numbers are for ranking designs, at the coarse level of searches. Friction and contact areas are corrected
+        for what its pixels leave out of the skin (Eq. accuracy.17). ``errors`` hold the scatter between skins, not what
+        else the level differs from ``evaluate`` by.
 
         values: by path (variables that are left out have the study's own values), or all in their order. A shape that breaks a limit is refused at once: ``ok`` is False. Raises InputError, KeyboardInterrupt.
         """
         return _judgement(self._inside.judge(self._numbers(values), v.whole(threads, "threads", 0, 4096)))
 
     def ask(self, n: int = 0) -> list[Point]:
-        """The next designs that the study's method wants to know; empty: nothing more to try.
+        """The next designs that the study's method wants to know; empty: nothing more to try, or as many designs were told
+        as ``search.evaluations`` says (without that key as many as ``papilla optimize`` takes).
 
         n: at most so many; 0: all that the method wants at once. It learns from a batch when the whole of it is told, so
         the designs are the same for any n. They depend on the study (its method and seed) and on what was told, never on

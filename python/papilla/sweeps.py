@@ -72,12 +72,13 @@ class Sweep:
         return pandas.DataFrame(rows)
 
     def to_xarray(self) -> xarray.Dataset:
-        """Over each key of a grid and humidity, as of ``Response.to_xarray``. Needs xarray; LookupError for a list of points."""
+        """Over each key of a grid and humidity, as of ``Response.to_xarray``; NaN where a point has no such quantity, as
+        those of a voltage without one. Needs xarray; LookupError for a list of points."""
         import xarray
 
         if not self._axes:
             raise LookupError("the sweep is a list of points, no grid: to_dataframe() has them")
-        sets = iter([response.to_xarray() for response in self.responses])
+        sets = iter(_of_one_kind([response.to_xarray() for response in self.responses]))
 
         def along(keys: list[str]) -> xarray.Dataset:
             if not keys:
@@ -121,6 +122,15 @@ def sweep(design: Design, values: Values, *, level: str = "", threads: int = 0, 
         if report:
             report(i + 1, len(designs))
     return Sweep(axes, points, designs, responses)
+
+
+def _of_one_kind(sets: list[xarray.Dataset]) -> list[xarray.Dataset]:
+    """Each with the quantities of all: NaN where it had none."""
+    import xarray
+
+    every = {name: data.attrs for one in sets for name, data in one.data_vars.items()}
+    return [one.assign({name: xarray.full_like(one["friction_off"], math.nan).assign_attrs(attributes)
+                        for name, attributes in every.items() if name not in one}) for one in sets]
 
 
 def _points(values: Values) -> tuple[dict[str, list[Any]], list[dict[str, Any]]]:

@@ -22,12 +22,28 @@ Path = Union[str, "os.PathLike[str]"]
 Quantified = Union[str, float]
 """A number with its unit, "350 nm", or a number in the SI unit, 350e-9."""
 
-class Brief:
-    """A dataclass whose representation tells the shapes of its arrays, and the ends of long texts, in place of all of them."""
+class WithArrays:
+    """A dataclass with arrays among its members: equal to another of the same members, arrays item by item (what is no
+    number equals what is none); its representation tells the shapes of its arrays, and the ends of long texts, in place
+    of all of them. Of its subclasses the decorator has eq=False, repr=False."""
+
+    def __eq__(self, other: object) -> bool:
+        if type(self) is not type(other):
+            return NotImplemented
+        return all(_same(value, vars(other)[name]) for name, value in vars(self).items())
+
+    __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
         shown = (f"{name}={_brief(value)}" for name, value in vars(self).items() if not name.startswith("_"))
         return f"{type(self).__name__}({', '.join(shown)})"
+
+
+def _same(a: Any, b: Any) -> bool:
+    """Of two members; numbers and arrays of them with what is no number."""
+    if isinstance(a, (float, np.ndarray)) and isinstance(b, (float, np.ndarray)):
+        return np.array_equal(a, b, equal_nan=True)
+    return bool(a == b)
 
 
 def _brief(value: Any) -> str:
@@ -38,6 +54,13 @@ def _brief(value: Any) -> str:
     if isinstance(value, (list, tuple, dict)) and len(value) > 6:
         return f"<{len(value)} items>"
     return repr(value)
+
+
+def fixed(numbers: npt.ArrayLike) -> FloatArray:
+    """A copy that nobody can write to."""
+    out = np.array(numbers, dtype=np.float64)
+    out.flags.writeable = False
+    return out
 
 
 # Sections of a study: their numbers are written with units, as in its file.

@@ -129,6 +129,19 @@ def test_a_drawn_design_is_saved_with_its_array(tmp_path: pathlib.Path) -> None:
     assert np.array_equal(pp.Design.load(tmp_path / "drawn.toml").heights(96).z, z - z.max())
 
 
+@pytest.mark.parametrize("repeats", [True, False])
+def test_a_drawn_design_reads_back_to_itself(repeats: bool, tmp_path: pathlib.Path) -> None:
+    z = drawn(63)
+    d = pp.Design.from_heights(z, "6 um", {"base": "m3_samples/flat.toml"}, repeats=repeats)
+    d.save(tmp_path / "drawn.toml")
+    d.save(tmp_path / "copy.toml")  # with heights of its own
+    alike = [d, pp.Design.parse(d.to_toml()), pp.Design.load(tmp_path / "drawn.toml"), pp.Design.load(tmp_path / "copy.toml")]
+    assert all(one == other and hash(one) == hash(other) for one in alike for other in alike)
+    z[30, 30] += 1e-8
+    another = pp.Design.from_heights(z, "6 um", {"base": "m3_samples/flat.toml"}, repeats=repeats)
+    assert another != d and another != pp.Design.load(tmp_path / "drawn.toml")
+
+
 def test_saving_a_drawn_design_keeps_every_other_file(tmp_path: pathlib.Path) -> None:
     z = drawn()
     np.save(tmp_path / "surface.npy", z * 1e9)  # as an instrument gave it, in nm

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -51,12 +52,27 @@ def test_a_table_counts_once_and_a_wrong_one_not_at_all(lab: pp.Lab, tmp_path: P
 
 
 def test_a_lab_that_is_opened_again_has_its_batch(lab: pp.Lab) -> None:
-    again = pp.Lab(lab.folder).batch
+    again_open = pp.Lab(lab.folder)
+    again = again_open.batch
     assert again is not None and lab.batch is not None
     assert list(again) == lab.batch.experiments and len(again) == len(lab.batch)
     assert (again.purpose, again.stop) == (lab.batch.purpose, lab.batch.stop)
     with pytest.raises(pp.InputError, match="seconds.*expected 0, no limit, or more"):
-        pp.Lab(lab.folder).next(seconds=-5)
+        again_open.next(seconds=-5)
+    with pytest.raises(pp.InputError, match="^seconds: "):
+        again_open.next(seconds="x")
+    for call in (lambda: again_open.next(date="x"), lambda: again_open.tell("a.csv", date="2026-13-01")):
+        with pytest.raises(pp.InputError, match="^date: expected year, month and day"):
+            call()
+
+
+def test_a_day_has_one_text_in_the_journal(lab: pp.Lab, tmp_path: Path) -> None:
+    folder = Path(shutil.copytree(lab.folder, tmp_path / "lab"))
+    table = tmp_path / "a.csv"
+    table.write_text("design,load_N,humidity_percent,voltage_V,F_off_N,F_on_N\ndeep,0.2,35,200,0.06,0.09\n")
+    pp.Lab(folder).tell(table, date="20260305")
+    journal = (folder / "lab.journal").read_text()
+    assert "2026-03-05" in journal and "20260305" not in journal
 
 
 def test_a_lab_takes_designs_and_starts_again_after_a_wrong_word(tmp_path: Path, lab: pp.Lab) -> None:

@@ -72,6 +72,57 @@ def test_a_quantity_is_an_array() -> None:
         A.parts["sampling"] = A.error  # type: ignore[index]
 
 
+def test_arrays_of_quantities_are_read_only() -> None:
+    own = np.array([1.0, 2.0])
+    q = pp.Quantity(own, np.array(0.1))
+    own *= 1e3
+    assert q.value.tolist() == [1.0, 2.0], "the quantity has its own"
+    for array in (q.value, q.error, q.numerical, q.model, q.parts["grid"], q[:1].value, (2 * q).error):
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
+
+
+LOSING: list[Callable] = [
+    np.mean, np.median, np.std, np.average, np.sum, np.max, np.sort, np.diff, np.cumsum, np.trapz,
+    lambda a: np.concatenate([a, a]), lambda a: np.stack([a, a]), lambda a: np.where(a > 1, a, 0), lambda a: np.clip(a, 0, 1),
+    lambda a: np.interp(1.5, a.value, a), lambda a: np.dot(a, a), lambda a: np.polyfit(a.value, a, 1),
+]
+
+
+@pytest.mark.parametrize("function", LOSING)
+def test_functions_that_would_lose_the_errors_are_refused(function: Callable) -> None:
+    with pytest.raises(TypeError, match="would lose the errors of a Quantity: take its .value"):
+        function(A)
+
+
+def test_comparisons_of_quantities_are_those_of_their_values() -> None:
+    assert np.allclose(A, A.value) and np.array_equal(A, A) and np.isclose(A, 2).tolist() == [True, False, False]
+    assert np.shape(A) == (3,) and np.ndim(A[0]) == 0 and np.size(A) == 3
+    assert np.isclose([2.0, 1.0, 0.5], b=A).tolist() == [True, False, True] and np.allclose(a=A, b=A) and np.shape(a=A) == (3,)
+
+
+def results() -> list[Callable[[float], object]]:
+    """Results that hold arrays, from a number of them."""
+    z = np.outer(np.cos(np.arange(16)), np.sin(np.arange(16))) * 1e-8
+    return [lambda x: pp.Judgement(True, "", np.array([x, np.nan]), np.array([0.1, 0.2]), np.array([])),
+            lambda x: pp.Differences(np.array([x, 2.0]), np.array([0.1, 0.2]), (True, True), np.full(2, np.nan), np.full(2, 0.5)),
+            lambda x: pp.contact(z, "6 um", pressure=x, modulus="1 MPa"), lambda x: pp.spectrum(x * z, "6 um"),
+            lambda x: pp.droplets(z + 3e-8, "6 um", volume=1e-20 * x), lambda x: pp.field(z + 3e-8, "6 um", voltage=x)]
+
+
+@pytest.mark.parametrize("made", results())
+def test_results_are_equal_where_all_their_numbers_are(made: Callable[[float], object]) -> None:
+    one = made(2.0)
+    assert one == made(2.0) and one != made(3.0) and one != 2.0 and one != A.unit
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(one)
+
+
+def test_results_of_numbers_alone_are_keys_of_dicts() -> None:
+    one, other = (pp.bridge("1 um3", "100 nm", 0.5, 0.5) for _ in range(2))
+    assert one == other and {one: "first"}[other] == "first" and repr(one).startswith("Bridge(exists=True, ")
+
+
 def test_quantities_survive_pickle_and_copy() -> None:
     for other in (pickle.loads(pickle.dumps(A)), copy.copy(A), copy.deepcopy(A)):
         assert np.array_equal(other.value, A.value) and other.unit == "N"
@@ -89,6 +140,10 @@ def test_a_response_is_a_table_with_units(quick: pp.Design) -> None:
     assert isinstance(data, xarray.Dataset) and data["friction_on"].attrs["units"] == "N"
     assert float(data["modulation"].sel(humidity=0.5)) == r.modulation.value[0]
     assert float(data["modulation_numerical"][0]) == r.modulation.numerical[0] and bool(data["sound"][0]) == r.sound[0]
+    data["modulation"][...] = -1
+    assert r.modulation.value[0] != -1, "the table has its own"
+    with pytest.raises(ValueError, match="read-only"):
+        r.humidity[0] = 0
 
 
 def test_a_sweep_is_its_evaluations(quick: pp.Design) -> None:
@@ -130,6 +185,26 @@ def test_the_table_of_a_sweep_has_the_units_of_all_its_points() -> None:
     undriven, driven = {"friction_off": "N"}, {"friction_off": "N", "modulation": "", "electrostatic_force": "N"}
     s = pp.Sweep({}, [{"drive.amplitude": 0.0}, {"drive.amplitude": 200.0}], [], [Told(undriven), Told(driven)])  # type: ignore[list-item]
     assert s.to_dataframe().attrs["units"] == driven
+
+
+def test_the_grid_of_a_sweep_lacks_what_a_point_lacks() -> None:
+    xarray = pytest.importorskip("xarray")
+
+    class Told:
+        """As a response of these numbers."""
+
+        def __init__(self, **values: float) -> None:
+            self.values = values
+
+        def to_xarray(self) -> xarray.Dataset:
+            return xarray.Dataset({name: ("humidity", [value], {"units": name[0]}) for name, value in self.values.items()},
+                                  {"humidity": [0.5]})
+
+    told = [Told(friction_off=1.0), Told(friction_off=2.0, modulation=0.5)]
+    grid = pp.Sweep({"drive.amplitude": [0.0, 200.0]}, [], [], told).to_xarray()  # type: ignore[arg-type]
+    assert grid["friction_off"].values.tolist() == [[1.0], [2.0]]
+    assert np.array_equal(grid["modulation"].values, [[np.nan], [0.5]], equal_nan=True)
+    assert grid["modulation"].attrs == {"units": "m"}
 
 
 def test_a_sweep_names_every_mistake_before_it_works(quick: pp.Design) -> None:

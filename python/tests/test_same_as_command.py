@@ -123,7 +123,7 @@ def test_points_that_yield_are_those_of_the_command() -> None:
     assert mine.over_voltage["yielded"].tolist() == [False, True]
     for sweep in ("over_voltage", "over_load", "over_frequency"):
         printed = mine.to_dict()[sweep]
-        for name in ("yielded", "collapsed"):
+        for name in ("yielded", "collapsed", "breaks_down"):
             assert getattr(mine, sweep)[name].tolist() == [p[name] for p in printed]
 
 

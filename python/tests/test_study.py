@@ -37,6 +37,16 @@ def test_ask_and_tell_find_a_planted_best() -> None:
     assert best[1].design["texture.depth"] == best[1]["texture.depth"]
 
 
+def test_asking_ends_after_the_evaluations_of_the_study() -> None:
+    study = pp.Study({**STUDY, "search": {"evaluations": 12, "seed": 3}})
+    told = 0
+    while points := study.ask():
+        study.tell(points, [p["texture.depth"] * 1e6 for p in points])
+        told += len(points)
+        assert told <= 12
+    assert told == 12 and study.ask() == [] and copy.copy(study).ask() == []
+
+
 def test_a_range_replaces_that_of_the_file(tmp_path: pathlib.Path) -> None:
     file = tmp_path / "study.toml"
     file.write_text('''schema_version = 1
@@ -229,6 +239,30 @@ def test_the_numbers_of_a_run_have_their_si_units(tmp_path: pathlib.Path) -> Non
                                     "mean(modulation)_error": "", "mean(friction)": "N", "mean(friction)_error": "N"}
 
 
+def test_what_to_build_may_be_another_than_the_best_design(tmp_path: pathlib.Path) -> None:
+    study = pp.Study(STUDY)
+    judged = {"ok": True, "reason": "", "values": [0.5], "errors": [0.01], "violations": []}
+    told = {"interrupted": False, "feasible": True, "evaluations": 1, "best": 0,
+            "finalists": [{"values": [3e-7, 1.0], "searched": judged, "confirmed": judged, "folder": "front/01"}]}
+
+    def run_of(**more: object) -> pp.Run:
+        (tmp_path / "run.json").write_text(json.dumps({**told, **more}))
+        return pp.Run(study, str(tmp_path))
+
+    (tmp_path / "best").mkdir()
+    flat = pp.Design.load("m3_samples/flat.toml")
+    flat.save(tmp_path / "best/build.toml")
+    run = run_of(advice="leave flat", recommendation="Leave it flat.", textured=False)
+    assert run.best.folder.endswith("front/01") and run.recommendation.folder == str(tmp_path / "best")
+    assert run.recommendation.load() == flat and not run.recommendation.textured
+    nothing = run_of(advice="nothing", recommendation="Build none of these.", textured=True).recommendation
+    assert (nothing.advice, nothing.said, nothing.folder) == ("nothing", "Build none of these.", "")
+    with pytest.raises(LookupError, match="Build none of these"):
+        nothing.load()
+    with pytest.raises(LookupError, match="resume=True"):
+        run_of(interrupted=True).recommendation
+
+
 @pytest.mark.slow
 def test_a_run_is_opened_again_from_its_folder(tmp_path: pathlib.Path) -> None:
     run = pp.Study({**KINDS, "search": {"evaluations": 16, "seed": 3}}).optimize(tmp_path / "run")
@@ -239,7 +273,8 @@ def test_a_run_is_opened_again_from_its_folder(tmp_path: pathlib.Path) -> None:
     for mine, theirs in zip(again.finalists, run.finalists, strict=True):
         assert mine.folder == theirs.folder and dict(mine.point) == dict(theirs.point)
         assert np.array_equal(mine.confirmed.values, theirs.confirmed.values)
-    assert again.best.load() == run.best.load() and again.table == run.table
+    assert again.best.load() == run.best.load() and again.table == run.table and again.finalists == run.finalists
+    assert again.recommendation == run.recommendation and again.recommendation.load().title
     frame = again.to_dataframe()
     assert list(frame["mean(modulation)"]) == [f.confirmed.values[0] for f in run.finalists]
     assert set(frame["texture.type"]) <= {"hole_array", "pillar_array"}

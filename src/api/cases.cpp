@@ -1,6 +1,7 @@
 #include "papilla/cases.h"
 
 #include <chrono>
+#include <limits>
 
 #include "api/inside.h"
 #include "cases/drive.h"
@@ -13,10 +14,20 @@ namespace {
 
 PerssonPoint point_of(const MeanFieldPoint& p) {
   const PullState& pull = p.on.pull;
-  return {p.voltage,    p.load,        p.frequency,   pull.status == PullStatus::Collapsed,
-          p.yielded,    p.area_off,    pull.area,     pull.pressure,
-          pull.pull,    pull.mean_gap, p.on.friction, p.on.coefficient,
-          p.capacitance};
+  const auto state = [&](double value) {
+    return p.sound() ? value : std::numeric_limits<double>::quiet_NaN();
+  };
+  PerssonPoint out;
+  out.voltage = p.voltage, out.load = p.load, out.frequency = p.frequency;
+  out.collapsed = pull.status == PullStatus::Collapsed;
+  out.breaks_down = p.breaks_down();
+  out.yielded = p.yielded;
+  out.area_off = p.area_off, out.area_on = state(pull.area);
+  out.pressure = state(pull.pressure), out.pull = state(pull.pull);
+  out.mean_gap = state(pull.mean_gap);
+  out.friction = state(p.on.friction), out.coefficient = state(p.on.coefficient);
+  out.capacitance = state(p.capacitance);
+  return out;
 }
 
 std::vector<PerssonPoint> points_of(const std::vector<MeanFieldPoint>& points) {

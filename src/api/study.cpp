@@ -173,15 +173,17 @@ struct Search::Inside {
   Study study;  // keeps what the searcher refers to
   std::unique_ptr<Searcher> searcher;
   std::vector<rooms::Point> asked;
+  std::size_t left = 0;  // of the evaluations of the study, after those that were told
 
   const StudyProblem& problem() const { return *study.inside().problem; }
 };
 
-Search::Search(const Study& study) : inside_(new Inside{study, nullptr, {}}) {
+Search::Search(const Study& study) : inside_(new Inside{study, nullptr, {}, 0}) {
   across([&] {
     SearchProblem search = search_problem(inside_->problem());
     search.residuals = 0;  // a judgement has none
     search.drafts = 0;
+    inside_->left = static_cast<std::size_t>(search.evaluations);
     inside_->searcher =
         make_searcher(choose_method(study.inside().study.search.method, search), search);
   });
@@ -193,7 +195,9 @@ Search::~Search() = default;
 
 std::vector<std::vector<double>> Search::ask() {
   return across([&] {
-    inside_->asked = inside_->searcher->ask();
+    inside_->asked.clear();
+    if (inside_->left > 0) inside_->asked = inside_->searcher->ask();
+    inside_->asked.resize(std::min(inside_->asked.size(), inside_->left));
     std::vector<std::vector<double>> out;
     for (const rooms::Point& unit : inside_->asked)
       out.push_back(inside_->problem().space().value(unit));
@@ -209,6 +213,8 @@ void Search::tell(const std::vector<Judgement>& judgements) {
     for (std::size_t i = 0; i < judgements.size(); ++i)
       told.push_back({inside_->asked[i], outcome_of(inside_->problem(), judgements[i])});
     inside_->searcher->tell(told);
+    inside_->left -= told.size();
+    inside_->asked.clear();  // each answer counts once
   });
 }
 

@@ -109,9 +109,14 @@ class CalibrationReader {
   }
 
   void read_data() {
+    std::string finger;
+    if (text("data_finger", finger) && !document_.has("data"))
+      document_.problem_at("data_finger",
+                           "says whose rows of a table are taken, but no table is named: write "
+                           "`data = \"measured.csv\"`, or leave data_finger out");
     from_file("data", [&](const std::string& file) {
-      FrictionTable table = read_friction(file);
-      check_films(table.rows, file);
+      FrictionTable table = read_friction(file, finger);
+      check_drives(table.rows, file);
       out_.data = std::move(table.rows);
       out_.data_notes = std::move(table.notes);
     });

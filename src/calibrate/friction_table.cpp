@@ -47,8 +47,10 @@ constexpr MeasuredForce kForces[] = {{"F_off", &FrictionDatum::off, &FrictionDat
 
 class FrictionReader {
  public:
-  explicit FrictionReader(const std::string& path)
-      : path_(path), table_(read_measured_table(read_bytes(path, kLargestTable), path)) {}
+  FrictionReader(const std::string& path, const std::string& finger)
+      : path_(path),
+        finger_(finger),
+        table_(read_measured_table(read_bytes(path, kLargestTable), path)) {}
 
   FrictionTable read() {
     check_columns();
@@ -57,7 +59,10 @@ class FrictionReader {
       if (empty_ > 0)
         out_.notes.push_back(
             fmt::format("{} without a friction are left out", counted(empty_, "row")));
-      if (out_.rows.empty() && problems_.empty()) problem(1, "F_off", "no row has a friction");
+      if (others_ > 0)
+        out_.notes.push_back(fmt::format("{} of other fingers ({}) are left out",
+                                         counted(others_, "row"), join_names(other_fingers_)));
+      if (out_.rows.empty() && problems_.empty()) tell_none();
     }
     if (problems_.empty()) {
       for (const MeasuredForce& force : kForces) check_deviations(force);
@@ -71,6 +76,16 @@ class FrictionReader {
  private:
   void problem(int line, const std::string& key, const std::string& message) {
     problems_.push_back({path_, line, 0, key, message});
+  }
+
+  void tell_none() {
+    if (others_ == 0) {
+      problem(1, "F_off", "no row has a friction");
+    } else {
+      problem(1, "finger",
+              fmt::format("no row with a friction is of \"{}\" (data_finger); there are {}",
+                          finger_, join_names(other_fingers_)));
+    }
   }
 
   // Said once, not with every row.
@@ -90,20 +105,34 @@ class FrictionReader {
     needed("F_off", "write F_off_N, the friction without voltage");
     needed("F_off_sd",
            "write F_off_sd_N, one standard deviation of the value: of repeats what they scatter");
-    const bool on = table_.has("F_on");
+    if (!finger_.empty())
+      needed("finger", "write whose finger each row is of, or leave data_finger out");
+    const auto any = [&](const auto& says) {
+      return std::any_of(table_.rows.begin(), table_.rows.end(), [&](const MeasuredRow& row) {
+        return row.measured() && chosen(row) && says(row);
+      });
+    };
+    const bool on = any([](const MeasuredRow& row) { return row.on.has_value(); });
     if (on) {
       needed("F_on_sd", "write F_on_sd_N, one standard deviation of the value");
       needed("voltage", "write voltage_V, the amplitude");
     }
-    if (on || std::any_of(table_.rows.begin(), table_.rows.end(), [](const MeasuredRow& row) {
-          return row.measured() && row.voltage.value_or(0) > 0;
-        }))
+    if (on || any([](const MeasuredRow& row) { return row.voltage.value_or(0) > 0; }))
       needed("frequency", "write frequency_Hz");
   }
+
+  bool chosen(const MeasuredRow& row) const { return finger_.empty() || row.finger == finger_; }
 
   void take(const MeasuredRow& row) {
     if (!row.measured()) {
       ++empty_;
+      return;
+    }
+    if (!chosen(row)) {
+      ++others_;
+      const std::string name = fmt::format("\"{}\"", row.finger);
+      if (std::find(other_fingers_.begin(), other_fingers_.end(), name) == other_fingers_.end())
+        other_fingers_.push_back(name);
       return;
     }
     const std::size_t before = problems_.size();
@@ -200,14 +229,16 @@ class FrictionReader {
     if (!first_) first_ = &row;
     if (row.finger != first_->finger)
       problem(row.line, "finger",
-              fmt::format("\"{}\", and \"{}\" in line {}: a fit is of one finger, so a table each",
+              fmt::format("\"{}\", and \"{}\" in line {}: a fit is of one finger, so say which one "
+                          "by data_finger in the calibration",
                           row.finger, first_->finger, first_->line));
   }
 
-  std::string path_;
+  std::string path_, finger_;
   MeasuredTable table_;
   const MeasuredRow* first_ = nullptr;  // with a friction
-  int empty_ = 0;
+  int empty_ = 0, others_ = 0;
+  std::vector<std::string> other_fingers_;  // quoted
   // Rows with all that they say, and the line of the first of each.
   std::map<std::tuple<RowConditions, double, double, double, double, std::string, std::string, int>,
            int>
@@ -219,7 +250,9 @@ class FrictionReader {
 
 }  // namespace
 
-FrictionTable read_friction(const std::string& path) { return FrictionReader(path).read(); }
+FrictionTable read_friction(const std::string& path, const std::string& finger) {
+  return FrictionReader(path, finger).read();
+}
 
 Design as_measured(Design design, const FrictionDatum& row) {
   // The table has voltages, whatever drives the design.
@@ -227,13 +260,14 @@ Design as_measured(Design design, const FrictionDatum& row) {
   design.drive.current = 0;
   design.drive.source_compliance = 0;
   design.drive.amplitude = row.amplitude;
+  // Of a constant voltage, 0, the design has the waveform (check_drives).
   if (row.frequency > 0) design.drive.frequency = row.frequency;
   design.finger.load = row.load;
   if (row.state) design.finger.state = *row.state;
   return design;
 }
 
-void check_films(const std::vector<FrictionDatum>& rows, const std::string& path) {
+void check_drives(const std::vector<FrictionDatum>& rows, const std::string& path) {
   std::map<std::string, Design> designs;
   std::vector<Problem> problems;
   for (const FrictionDatum& row : rows) {
@@ -241,6 +275,9 @@ void check_films(const std::vector<FrictionDatum>& rows, const std::string& path
     auto read = designs.find(row.design);
     if (read == designs.end()) read = designs.emplace(row.design, read_design(row.design)).first;
     const Design d = as_measured(read->second, row);
+    const std::string wrong =
+        row.amplitude > 0 ? frequency_problem(read->second.drive, row.frequency) : "";
+    if (!wrong.empty()) problems.push_back({path, row.line, 0, "frequency", wrong});
     if (!(bridged_margin(d.surface, d.texture, d.drive, row.amplitude) < 1)) continue;
     const double limit = breakdown_voltage(d.surface, d.texture, d.drive);
     problems.push_back(

@@ -12,6 +12,7 @@
 #include "cases/recording.h"
 #include "config/reader.h"
 #include "design/design.h"
+#include "forward/electric_path.h"
 #include "forward/forward.h"
 #include "forward/scene_terms.h"
 #include "numerics/statistics.h"
@@ -45,6 +46,22 @@ ImpedanceLayer stack(const std::vector<Dielectric>& layers, double area, Network
   }
   if (elastance > 0) sum.capacitance = 1 / elastance;
   return sum;
+}
+
+// The film on the electrode: given, or that of the gap's design.
+Surface film_of(const DriveCase& c) {
+  if (!c.gap.design.empty()) return scene_of(read_design(c.gap.design)).surface;
+  Surface out;
+  out.dielectric.clear();
+  for (const Dielectric& layer : c.surface.dielectric)
+    out.dielectric.push_back(FilmDielectric{layer});
+  return out;
+}
+
+// The voltage across a film at which the first of its layers breaks down [V]. They share it as at
+// the drive's frequency. Eq. electrostatics.9
+double breakdown_of(const Surface& film, const Drive& drive) {
+  return dielectric_margin(film.layers(), 1, kInfinity, film_divider(film, drive));  // of 1 V
 }
 
 Network given_network(const DriveCase& c) {
@@ -161,7 +178,7 @@ double peak_amplitude(const Drive& drive) {
   return drive.control == DriveControl::Current ? drive.current : drive.amplitude;
 }
 
-std::vector<DriveCheck> checks_of(const DriveResult& r, const Drive& drive) {
+std::vector<DriveCheck> checks_of(const DriveResult& r, const Drive& drive, const Surface& film) {
   std::vector<DriveCheck> out{
       {DriveLimit::BodyCurrent, r.series.peak_current, drive.current_limit}};
   if (drive.source_compliance > 0) {
@@ -170,6 +187,9 @@ std::vector<DriveCheck> checks_of(const DriveResult& r, const Drive& drive) {
   }
   out.push_back({DriveLimit::GapVoltage, r.series.peak_gap_voltage,
                  air_breakdown_voltage(r.network.gap.distance)});
+  if (film.dielectric_thickness() > 0) {
+    out.push_back({DriveLimit::FilmVoltage, r.series.peak_film_voltage, breakdown_of(film, drive)});
+  }
   return out;
 }
 
@@ -402,7 +422,7 @@ DriveResult solve_drive(const DriveCase& c) {
   for (double f : c.sweep.frequency) {
     r.response.push_back(respond(r.network, drive.control, peak_amplitude(drive), f));
   }
-  r.checks = checks_of(r, drive);
+  r.checks = checks_of(r, drive, film_of(c));
   if (const DriveTouch& t = c.touch; t.real_area > 0) {
     const auto onset = [&](double pull, double still) {
       return onset_friction(t.shear_strength, t.real_area, t.coefficient, t.load, pull, still);

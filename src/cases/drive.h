@@ -99,7 +99,7 @@ void fields(FieldVisitor& v, DriveCase& s);
 DriveCase read_drive_case(const std::string& path, const std::vector<std::string>& overrides = {});
 DriveCase read_drive_case(Document document);
 
-enum class DriveLimit { BodyCurrent, SourceVoltage, GapVoltage };
+enum class DriveLimit { BodyCurrent, SourceVoltage, GapVoltage, FilmVoltage };
 
 struct DriveCheck {
   DriveLimit what;
@@ -118,7 +118,9 @@ struct DriveResult {
   double distortion = 0;                // of the friction below half the carrier; where modulated
   std::vector<SpectrumLine> lines;      // of the friction, 1e-6 of the largest and above
   std::vector<DriveResponse> response;  // one per frequency of the sweep
-  std::vector<DriveCheck> checks;       // body current, source compliance, air in the gap
+  // Body current, source compliance, air in the gap, strength of the film; of a compliance and a
+  // film where there are some.
+  std::vector<DriveCheck> checks;
   // Onset of sliding [N], Eq. drive.6: undriven, driven, driven with all of the patch in static
   // contact; 0 without touch.real_area.
   double onset_off = 0, onset_on = 0, onset_static = 0;

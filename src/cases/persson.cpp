@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "config/reader.h"
 #include "design/design.h"
+#include "physics/electrostatics/breakdown.h"
 
 namespace papilla::cases {
 
@@ -87,6 +88,16 @@ std::complex<double> InterfaceSettings::thickness(double skin_thickness, double 
   if (gap_resistivity == 0) return h0;
   return h0 *
          std::complex<double>(1, 1 / (2 * kPi * frequency * kVacuumPermittivity * gap_resistivity));
+}
+
+double InterfaceSettings::dielectric_margin(double skin_thickness, double voltage,
+                                            double frequency) const {
+  const double surface = surface_thickness();
+  if (surface <= 0) return kInfinity;
+  InterfaceSettings touching = *this;  // no gap lies between, so none conducts
+  touching.gap_resistivity = 0;
+  const double share = surface / std::abs(touching.thickness(skin_thickness, frequency));
+  return electrostatics::dielectric_margin(dielectric, share * voltage, kInfinity);
 }
 
 void fields(FieldVisitor& v, InterfaceSettings& s) {
@@ -256,7 +267,10 @@ class CaseField {
     const MeanField& loaded = field(load);
     point.on = friction_at(loaded, load, touch.area, touch.shear_strength,
                            pulls ? drive.v_rms() : 0, h0, touch.finite_size_pressure);
-    point.yielded = case_.skin.hardness > 0 && point.on.pull.pressure >= case_.skin.hardness;
+    point.dielectric_margin =
+        case_.interface.dielectric_margin(case_.skin.solid.layer_thickness, voltage, frequency);
+    point.yielded =
+        point.sound() && case_.skin.hardness > 0 && point.on.pull.pressure >= case_.skin.hardness;
     point.area_off = loaded.area(load / touch.area);
     if (pulls && insulates(point.thickness))
       point.capacitance =
@@ -333,7 +347,8 @@ MeanFieldCurves mean_field_curves(const MeanFieldCase& c) {
   for (const double p : spaced(1, 1e6, kCurve))
     out.separation.push_back({p, field.mean_gap(p), field.mean_gap(std::max(p, smallest))});
   const MeanFieldPoint point = of.at(c.drive.amplitude, c.touch.load, own_frequency(c));
-  if (!std::isfinite(point.thickness.real()) || c.drive.amplitude <= 0) return out;
+  if (!std::isfinite(point.thickness.real()) || c.drive.amplitude <= 0 || !point.sound())
+    return out;
   const GapDistribution gaps = of.gaps_of(point);
   const std::vector<double> at = spaced(1e-11, 1e-3, kCurve);
   out.stress = stress_distribution(gaps, c.drive.v_rms(), point.thickness, at);

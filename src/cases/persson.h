@@ -41,6 +41,9 @@ struct InterfaceSettings {
   double surface_thickness() const;  // sum of d/eps of the dielectric [m]
   // h0 at a frequency; at 0 Hz lossy skin conducts. Infinite where the gap conducts at 0 Hz.
   std::complex<double> thickness(double skin_thickness, double frequency) const;
+  // Smallest ratio of strength to field over the layers of the dielectric at a peak voltage [V],
+  // where the skin touches it; infinite without one. Eq. electrostatics.9
+  double dielectric_margin(double skin_thickness, double voltage, double frequency) const;
 };
 void fields(FieldVisitor& v, InterfaceSettings& s);
 
@@ -89,6 +92,12 @@ struct MeanFieldPoint {
   // Of the nominal area, gap and layers in series [F], of a skin that conducts by the size of its
   // admittance; 0 where the gap conducts at 0 Hz or no layer insulates.
   double capacitance = 0;
+  double dielectric_margin = kInfinity;  // InterfaceSettings::dielectric_margin
+  // Under the voltage the dielectric breaks down where the skin touches it.
+  bool breaks_down() const { return dielectric_margin < 1; }
+  // There is an equilibrium, on a dielectric that holds. Else `on` and the capacitance are of no
+  // state, and no number of them is told.
+  bool sound() const { return on.pull.status == PullStatus::Solved && !breaks_down(); }
   // With the pull, the pressure is at the hardness or beyond: all of the skin yields, and the
   // numbers under voltage, which are of a skin that carries it, mean nothing.
   bool yielded = false;
@@ -119,7 +128,8 @@ struct MeanFieldCurves {
     double time, field, pull;  // in the mean gap [V/m]; mean over the area [Pa]
   };
   std::vector<Roughness> roughness;
-  std::vector<StressPoint> stress;  // over the gaps of the point, under its drive
+  // Over the gaps of the point, under its drive; empty unless that is sound.
+  std::vector<StressPoint> stress;
   std::vector<Separation> separation;
   std::vector<Step> step;  // empty without a lossy skin or without a dielectric to hold the voltage
   std::vector<MeanFieldPoint> grid;  // every voltage of the sweep at every load, where both are

@@ -23,6 +23,7 @@
 #include "fabricate/verify.h"
 #include "geometry/io/layout.h"
 #include "geometry/texture.h"
+#include "report/limits.h"
 #include "search/pick.h"
 
 namespace papilla::cli {
@@ -68,6 +69,7 @@ void refuse_without_effect(const ExportCommand& command, const Texture& design,
 // What is exported, and where its files go by default: beside a folder of results.
 struct ExportSourceFile {
   std::string design, beside;
+  std::string run{};     // the folder of results that it is of; "": of none
   bool rounded = false;  // on the grid of the fab, as the build sheet has it
 };
 
@@ -88,9 +90,13 @@ ExportSourceFile source_of(const ExportCommand& command) {
   const fs::path beside = folder_of_design
                               ? named / "export"
                               : named / "export" / found.parent_path().lexically_relative(named);
+  // As it was named: the record of the files has no other place of this machine.
+  fs::path run = folder_of_design ? (named / "..").lexically_normal() : named;
+  if (!run.has_filename()) run = run.parent_path();  // "run/"
   const fs::path build = found.parent_path() / "build.toml";
-  if (!command.unrounded && fs::exists(build)) return {build.string(), beside.string(), true};
-  return {found.string(), beside.string()};
+  if (!command.unrounded && fs::exists(build))
+    return {build.string(), beside.string(), run.string(), true};
+  return {found.string(), beside.string(), run.string()};
 }
 
 // "1 mm", or "110x62 mm", "110 mm x 62 mm": one side, or both.
@@ -165,9 +171,12 @@ int export_files(const Context& context, const ExportCommand& command) {
   }
   Export result;
   ExportVerdict verdict;
+  std::vector<std::string> warnings;
+  if (std::string none = none_keeps_text(source.run); !none.empty())
+    warnings.push_back(std::move(none));
   {
     FileWork work(context, "writing");
-    result = export_with_record(study, options, folder, work.progress());
+    result = export_with_record(study, options, folder, work.progress(), {}, warnings);
   }
   for (const std::string& warning : result.warnings)
     std::cerr << "warning: " << visible(warning) << '\n';
@@ -221,7 +230,7 @@ void add_export(Command app, Context& context) {
   options->of_files.push_back(
       {command
            .add_option("--levels", options->levels, "Layout of a free form: layers, one per level")
-           .range(1, 64),
+           .range(1, kMostLevels),
        [](const ExportFormat& format, const FeatureArray* array) {
          return format.needs_outline && !array;
        },

@@ -41,7 +41,7 @@ std::string terminal_line(double share, const std::string& text) {
   for (int i = 0; i < kBar; ++i) line += i < full ? "█" : "░";
   line += ' ';
   for (const std::string& word : split(text, ' ')) {
-    if (text_width(line) + text_width(word) + 1 > kColumns) return line + "…";
+    if (text_width(line) + text_width(word) + 2 > kColumns) return line + "…";
     line += word.empty() ? "" : word + ' ';
   }
   return line;

@@ -20,7 +20,11 @@ void write_curves(const Context& context, const std::string& folder, const MeanF
   const MeanFieldCurves curves = mean_field_curves(c);
   write_bytes(folder + "/roughness.csv", roughness_csv(curves));
   write_bytes(folder + "/separation.csv", separation_csv(curves));
-  if (!curves.stress.empty()) write_bytes(folder + "/stress.csv", stress_csv(curves));
+  if (!curves.stress.empty()) {
+    write_bytes(folder + "/stress.csv", stress_csv(curves));
+  } else {
+    context.note("no stress.csv: the case's own point has no pull, or no state under its voltage");
+  }
   if (!curves.step.empty()) {
     write_bytes(folder + "/step.csv", step_csv(curves));
   } else if (c.interface.lossy_skin && !curves.stress.empty()) {
@@ -41,7 +45,7 @@ int solve(const Context& context, const MeanFieldCommand& options) {
   }
   std::cout << (options.json ? mean_field_json(c, r, seconds) + '\n'
                              : mean_field_text(c, r, seconds));
-  const bool failed = r.point.on.pull.status == PullStatus::Collapsed || r.point.yielded;
+  const bool failed = !r.point.sound() || r.point.yielded;
   return failed ? kWorkFailed : kSuccess;
 }
 

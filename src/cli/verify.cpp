@@ -142,7 +142,8 @@ void add_verify(Command app, Context& context) {
           .repeatable(),
       command
           .add_option("--time", options->time,
-                      "Of a run: largest time for the model; what does not fit is said")
+                      "Of a run: no answer of the model is begun that would end later; one of each "
+                      "processor is waited for in any case, and the files are judged besides")
           .show_default(),
       command
           .add_option("--jobs", options->jobs, "Of a run: evaluations at a time; 0: all processors")

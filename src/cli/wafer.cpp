@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/file_work.h"
+#include "report/limits.h"
 
 namespace papilla::cli {
 namespace {
@@ -22,6 +23,8 @@ struct WaferCommand {
 
 int make_wafer(const Context& context, const WaferCommand& command) {
   WaferPlan plan = plan_wafer(command.path, command.overrides);
+  if (const std::string none = none_keeps_text(command.path); !none.empty())
+    plan.notes.push_back("warning: " + none);
   check_conditions(plan);
   const WaferDrawing drawing = draw_wafer(plan);
   std::vector<std::string> files;

@@ -96,14 +96,16 @@ void finger_problems(const Finger& finger, const ModelOptions& model, const std:
 void drive_problems(const Drive& drive, const Surface& surface, Problems& out) {
   const bool current = drive.control == DriveControl::Current;
   if (current && drive.amplitude > 0) {
-    out.push_back({"drive.amplitude",
-                   "a voltage, beside control = \"current\": give drive.current, and the largest "
-                   "voltage as drive.source_compliance"});
+    out.push_back(
+        {"drive.amplitude",
+         "a voltage, beside control = \"current\": set it to 0 V, give drive.current, and "
+         "the largest voltage of the source as drive.source_compliance"});
   }
   if (!current && drive.current > 0) {
-    out.push_back({"drive.current",
-                   "a current, beside control = \"voltage\": say control = "
-                   "\"current\", or give drive.amplitude"});
+    out.push_back(
+        {"drive.current",
+         "a current, beside control = \"voltage\": say control = \"current\", or set it to "
+         "0 mA and give drive.amplitude"});
   }
   if (current && drive.waveform == Waveform::Dc && drive.driven()) {
     out.push_back({"drive.waveform",
@@ -173,6 +175,14 @@ void patch_problems(const Design& design, Problems& out) {
                    format_quantity(*patch.exact, "um"), format_quantity(kShortest, "um"))});
 }
 
+// What makes a patch that is longer than the window shorter, "" of one that is not.
+std::string shorter_patch(const TextureFacts& known) {
+  const FreePatch& free = known.free_patch;
+  if (free.least > kWindow) return "smaller particles or more coverage by them, ";
+  if (known.period() > kWindow) return "a shorter period, ";
+  return free.exact.value_or(0) > kWindow ? "a shorter patch, " : "";
+}
+
 // What would take minutes for every patch is refused before it begins.
 void droplet_problems(const Design& design, Problems& out) {
   const Scene scene = scene_of(design);
@@ -185,9 +195,10 @@ void droplet_problems(const Design& design, Problems& out) {
   if (most <= kMostDroplets) return;
   out.push_back({"finger.water.drops_per_um3",
                  fmt::format("{:.3g} makes {:.2g} droplets on a patch of {:.3g} um, more than the "
-                             "{:g} that are settled in reasonable time: fewer of them, a shorter "
-                             "period, or model.water = \"threshold\"",
-                             water.drops_per_um3, most, 1e6 * patch.lx, kMostDroplets)});
+                             "{:g} that are settled in reasonable time: fewer of them, {}"
+                             "or model.water = \"threshold\"",
+                             water.drops_per_um3, most, 1e6 * patch.lx, kMostDroplets,
+                             shorter_patch(facts(design.texture)))});
 }
 
 // Of a pin at a path of the design.

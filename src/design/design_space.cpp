@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/units.h"
 #include "design/families.h"
 #include "design/study_file.h"
 
@@ -118,7 +119,14 @@ void read_variable(StudyFile& file, const std::string& path, const Node& node) {
   if (choice) {
     variable.choices = *values;
   } else if (values->front() >= values->back()) {
-    file.document.problem(list.place, where, "expected low < high");
+    const bool one = values->front() == values->back();
+    file.document.problem(
+        list.place, where,
+        one ? fmt::format(
+                  "expected low < high; of one value write {{ choice = [\"{}\"] }}, or state "
+                  "it in the design and leave it out here",
+                  format_quantity(values->front(), field->unit))
+            : "expected low < high");
     return;
   }
   if (exclude) read_excluded(file, *field, *exclude, where + ".exclude", variable);

@@ -58,6 +58,15 @@ Shown shown(const Limited& on, double si) {
   return {si / find_unit(unit)->to_si, unit};
 }
 
+// As instruments would read it.
+double without_noise(const Limited& on, double value) {
+  if (const auto* metric = std::get_if<MetricLimit>(&on))
+    return metrics::without_noise(metric->expression, value);
+  if (const auto* look = std::get_if<LookLimit>(&on))
+    return metrics::without_noise({Summary::Mean, LookMetric{look->number}}, value);
+  return value;
+}
+
 }  // namespace
 
 const std::vector<ConstraintKind>& constraint_kinds() {
@@ -138,6 +147,8 @@ bool keeps(const Constraint& limit, double value) { return violation(limit, valu
 
 std::string limit_value_text(const Constraint& limit, double value) {
   if (!std::isfinite(value)) return "none";
+  const double quiet = without_noise(limit.on, value);
+  if (value != limit.limit && keeps(limit, quiet) == keeps(limit, value)) value = quiet;
   const auto [number, unit] = shown(limit.on, value);
   const double asked = shown(limit.on, limit.limit).value;
   // What is read keeps the limit where the value does, and breaks it where that does.

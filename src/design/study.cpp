@@ -34,7 +34,8 @@ void fields(FieldVisitor& v, Search& s) {
   v.number({"time", "min", 0, 1e6, "largest wall-clock time; 0: no limit"}, s.time);
   v.integer({"jobs", "evaluations at a time; 0: one per processor"}, 0, 4096, s.jobs);
   v.number({"rounding", "nm", 0, 1e5,
-            "grid of the fab: the best design is judged again with its lengths on it; 0: not"},
+            "grid of the fab: the best design is judged again with its periods and widths on it, "
+            "other lengths on finer steps; 0: not"},
            s.rounding);
 }
 
@@ -60,8 +61,34 @@ std::vector<std::string> scenarios_setting(const Study& study, const std::string
   return out;
 }
 
+namespace {
+
+// Spreads over humidity that a study asks for, where it has one humidity: 0 of every design.
+std::vector<std::string> spreads_of_one(const Study& study) {
+  std::vector<std::string> out;
+  if (study.design.environment.relative_humidity.size() != 1) return out;
+  const auto add = [&](const MetricExpression& e) {
+    const std::string name = metric_text(e);
+    if (is_spread(e.summary) && std::find(out.begin(), out.end(), name) == out.end())
+      out.push_back(name);
+  };
+  for (const auto* list : {&study.objective.maximise, &study.objective.minimise})
+    std::for_each(list->begin(), list->end(), add);
+  for (const Constraint& c : study.constraints) {
+    if (const auto* metric = std::get_if<MetricLimit>(&c.on)) add(metric->expression);
+  }
+  return out;
+}
+
+}  // namespace
+
 std::vector<std::string> unused_of(const Study& study) {
   std::vector<std::string> out;
+  if (const std::vector<std::string> spreads = spreads_of_one(study); !spreads.empty())
+    out.push_back(join_names(spreads) +
+                  ": 0 for every design, as a spread over humidity of the one humidity that the "
+                  "study has; add another to environment.relative_humidity, or leave the spread "
+                  "out");
   for (const std::string& path : study.fallen_away)
     out.push_back(path + " of the base is left out: this kind of texture has no such number");
   for (const Variable& v : study.variables) {

@@ -107,7 +107,8 @@ struct Study {
 // The scenarios that count and set this number, under its own key or another kind's.
 std::vector<std::string> scenarios_setting(const Study& study, const std::string& path);
 
-// What of the study's files a search does not use, a line each.
+// What of the study's files a search does not use, or what it asks for and no design changes, a
+// line each.
 std::vector<std::string> unused_of(const Study& study);
 
 // Throws InputError with every mistake.

@@ -197,7 +197,8 @@ double breakdown_voltage(const Surface& surface, const Texture& texture, const D
   const double radius = surface.electrode_edge_radius;
   const TextureFacts known = facts(texture);
   const Relief& relief = known.relief;
-  const bool edges = radius > 0 && relief.present;
+  // Below a planar layer the electrode is flat: it has no edges.
+  const bool edges = radius > 0 && relief.present && surface.carrying_layer() < 0;
   const FilmGround ground{.deepest = relief.planes ? std::max(0.0, -relief.planes->low) : 0,
                           .height = relief.height().value_or(kInfinity),
                           .steepest = known.steepest.value_or(0)};

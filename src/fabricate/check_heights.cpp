@@ -2,23 +2,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "base/constants.h"
 #include "fabricate/checks.h"
 #include "geometry/io/height_rows.h"
 #include "geometry/io/layout.h"
+#include "geometry/io/legend.h"
 
 namespace papilla::fabricate {
 namespace {
 
 // How a format holds heights.
 struct HeldAs {
-  bool above_lowest = false;  // zero is the lowest plane
-  bool binary = false;        // nothing but the lowest and the highest plane
-  bool says_polarity = false;
+  bool above_lowest = false;   // zero is the lowest plane
+  bool binary = false;         // nothing but the lowest and the highest plane
+  bool tiff = false;           // sides by tags, and what ImageJ takes of its description
+  bool says_polarity = false;  // levels between black and white
   bool says_size = true;
   bool single = false;  // numbers of 32 bits
   int levels = 0;       // of grey between the lowest and the highest; 0: numbers
@@ -58,17 +63,6 @@ struct Compared {
   }
 };
 
-// The width of a feature by the share of the area below half the depth.
-std::optional<double> width_of(const ExportSource& s, double share) {
-  const TextureFacts known = facts(s.texture);
-  const FeatureArray* array = array_of(known);
-  if (!array || !known.cell) return std::nullopt;
-  const double features = array->deep ? share : 1 - share;
-  if (array->shape == FeatureArray::Shape::Line) return features * array->period;
-  const double cell = known.cell->x * known.cell->y / (array->lattice == Lattice::Square ? 1 : 2);
-  return std::sqrt(4 / kPi * features * cell);
-}
-
 class HeightsCheck {
  public:
   HeightsCheck(const ExportSource& source, HeldAs held, int repeat = 1)
@@ -106,9 +100,14 @@ class HeightsCheck {
       judge_side("its width", known(said.lx), repeat_ * grid.lx, 1e-9);
       judge_side("its height", known(said.ly), repeat_ * grid.ly, 1e-9);
     }
-    if (!held_.says_polarity) return;
+    if (!held_.tiff) return;
     judge_side("its width by the TIFF tags", said.tag_x, grid.lx, 1e-6);
     judge_side("its height by the TIFF tags", said.tag_y, grid.ly, 1e-6);
+    judge_polarity(said);
+    judge_imagej(said);
+  }
+  void judge_polarity(const MapHeader& said) {
+    if (!held_.says_polarity) return;
     if (said.polarity != s_.options.polarity) {
       const bool high = s_.options.polarity == Polarity::WhiteHigh;
       faults_.push_back(fmt::format("its polarity is {}, the export's is white-{}",
@@ -117,6 +116,40 @@ class HeightsCheck {
                                                    : "white-high",
                                     high ? "high" : "deep"));
     }
+  }
+  // The unit of the resolution tags, and the height of a level, c0 + c1 * level um: as the line of
+  // our own reader has it, by which the heights are judged.
+  void judge_imagej(const MapHeader& file) {
+    const auto value = [&](const char* name) {
+      const auto found = file.imagej.find(name);
+      return found == file.imagej.end() ? std::string() : found->second;
+    };
+    const auto fault = [&](const char* name, const std::string& due) {
+      const std::string is = value(name);
+      faults_.push_back(fmt::format("its description says to ImageJ {}, and {}={} is due",
+                                    is.empty() ? fmt::format("no {}", name) : name + ("=" + is),
+                                    name, due));
+    };
+    const auto text = [&](const char* name, const char* due) {
+      if (value(name) != due) fault(name, due);
+    };
+    text("unit", "cm");
+    text("vunit", "um");
+    if (!held_.says_polarity) return;
+    text("cf", "0");  // a straight line
+    const double black = 1e6 * file.black, white = 1e6 * file.white;
+    const auto number = [&](const char* name, double due, double levels) {
+      const std::string is = value(name);
+      double read = 0;
+      const auto [end, error] = std::from_chars(is.data(), is.data() + is.size(), read);
+      const bool whole = error == std::errc{} && end == is.data() + is.size();
+      // To the ninth digit of the file.
+      const double most = 1e-8 * std::max(std::abs(black), std::abs(white));
+      if (!whole || !(levels * std::abs(read - due) <= most))
+        fault(name, fmt::format("{:.9g}", due));
+    };
+    number("c0", black, 1);
+    number("c1", (white - black) / kSixteenBits, kSixteenBits);
   }
   double expected(double z) const {
     if (held_.binary) return z >= planes_.middle() ? planes_.high : planes_.low;
@@ -211,7 +244,8 @@ class HeightsCheck {
     const double share = same_depth ? deep_ / c_.n : volume(c_.f, c_.f_low, c_.f_high);
     const double design_share =
         same_depth ? design_deep_ / c_.n : volume(c_.d, c_.d_low, c_.d_high);
-    const auto width = width_of(s_, share), design_width = width_of(s_, design_share);
+    const auto width = width_by_area(s_.texture, share),
+               design_width = width_by_area(s_.texture, design_share);
     if (c_.correlation() > -0.5 && std::abs(share - design_share) > 1e-3 * design_share) {
       faults_.push_back(width ? fmt::format("its critical dimension (width of the {}) {}",
                                             array_of(facts(s_.texture))->drawn,
@@ -282,15 +316,15 @@ Faults check_exr(const ExportSource& s, const std::string& path) {
 }
 
 Faults check_tiff32(const ExportSource& s, const std::string& path) {
-  return HeightsCheck(s, {.above_lowest = true, .single = true}).run(path);
+  return HeightsCheck(s, {.above_lowest = true, .tiff = true, .single = true}).run(path);
 }
 
 Faults check_tiff(const ExportSource& s, const std::string& path) {
-  return HeightsCheck(s, {.says_polarity = true, .levels = kSixteenBits}).run(path);
+  return HeightsCheck(s, {.tiff = true, .says_polarity = true, .levels = kSixteenBits}).run(path);
 }
 
 Faults check_mask(const ExportSource& s, const std::string& path) {
-  return HeightsCheck(s, {.binary = true, .says_polarity = true}).run(path);
+  return HeightsCheck(s, {.binary = true, .tiff = true, .says_polarity = true}).run(path);
 }
 
 Faults check_gsf(const ExportSource& s, const std::string& path) {
@@ -306,10 +340,8 @@ Faults check_png16(const ExportSource& s, const std::string& path) {
 }
 
 Faults check_preview(const ExportSource& s, const std::string& path) {
-  int width = 0, height = 0;
-  const std::vector<std::uint8_t> wanted =
-      render_field(s.heightmap.grid, s.heightmap.z, width, height);
-  return check_picture(path, width, height, 3, 1, wanted);
+  const FieldPicture wanted = picture_of_heights(s.heightmap);
+  return check_picture(path, wanted.width, wanted.height, 3, 1, wanted.rgb);
 }
 
 Faults check_dose(const ExportSource& s, const std::string& path) {

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 #include <tuple>
+#include <unordered_map>
 
 #include "base/constants.h"
 #include "base/error.h"
@@ -303,6 +304,37 @@ class Triangles {
   std::ifstream file_;
 };
 
+// Whether triangles close a body: each edge of one is that of another in the other direction.
+// Corners are numbers.
+class EdgeCheck {
+ public:
+  void add(const std::array<std::uint32_t, 3>& corners) {
+    for (std::size_t i = 0; i < 3; ++i) add(corners[i], corners[(i + 1) % 3]);
+  }
+  // Edges without one in the other direction.
+  std::size_t open() const { return open_; }
+
+ private:
+  void add(std::uint32_t from, std::uint32_t to) {
+    if (const auto other = edges_.find(key(to, from)); other != edges_.end()) {
+      --open_;
+      if (--other->second == 0) edges_.erase(other);
+      return;
+    }
+    ++open_;
+    // In the order of our files the edges of a row of pixels wait, and those of the sides; beyond
+    // so many, of which a file is far from closed, the others stay open.
+    constexpr std::size_t kMost = 1 << 22;
+    if (edges_.size() < kMost) ++edges_[key(from, to)];
+  }
+  static std::uint64_t key(std::uint32_t from, std::uint32_t to) {
+    return std::uint64_t{from} << 32 | to;
+  }
+
+  std::unordered_map<std::uint64_t, int> edges_;  // that wait for the other direction, how often
+  std::size_t open_ = 0;
+};
+
 // Corners lie on the pixels of the surface or on the base, in um.
 class BodyCheck {
  public:
@@ -337,6 +369,13 @@ class BodyCheck {
       out.push_back(
           fmt::format("the normals of {} triangles do not stand on them, outwards", turned_));
     }
+    // Corners that are off or no numbers leave edges open by themselves.
+    if (off_ == 0 && no_numbers_ == 0 && edges_.open() > 0) {
+      out.push_back(
+          fmt::format("{} edges of triangles are those of no other one in the opposite "
+                      "direction: the body is not closed",
+                      edges_.open()));
+    }
     return out;
   }
 
@@ -357,11 +396,15 @@ class BodyCheck {
                 d(a.y) * (d(b.x) * d(c.z) - d(b.z) * d(c.x)) +
                 d(a.z) * (d(b.x) * d(c.y) - d(b.y) * d(c.x))) /
                6;
+    std::array<std::uint32_t, 3> corners{};
     const std::size_t off = off_;
-    for (const Corner& corner : t.corners) judge(corner);
-    turned_ += off_ == off && !stands(t);  // corners that are off turn it by themselves
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = judge(t.corners[i]);
+    if (off_ != off) return;  // corners that are off turn it by themselves
+    turned_ += !stands(t);
+    edges_.add(corners);
   }
-  void judge(const Corner& corner) {
+  // The number of the corner, where it is not off.
+  std::uint32_t judge(const Corner& corner) {
     const Grid& grid = h_.grid;
     const double x = static_cast<double>(corner.x), y = static_cast<double>(corner.y),
                  z = static_cast<double>(corner.z);
@@ -369,7 +412,7 @@ class BodyCheck {
     const double column = 1e-6 * x / grid.dx(), row = 1e-6 * y / grid.dy();
     if (!(column >= -0.5 && column <= grid.nx + 0.5 && row >= -0.5 && row <= grid.ny + 0.5)) {
       note(kInfinity, x, y);
-      return;
+      return 0;
     }
     const int ix = static_cast<int>(std::lround(column)), iy = static_cast<int>(std::lround(row));
     const double high = 1e6 * (h_(ix % grid.nx, iy % grid.ny) - low_);
@@ -377,6 +420,10 @@ class BodyCheck {
         std::max(std::abs(column - ix) * grid.dx(), std::abs(row - iy) * grid.dy());
     const double miss = std::max(z == 0 ? 0 : std::abs(z - high), 1e6 * beside);
     if (!(miss <= 2e-7 * std::max({high, x, y}))) note(miss, x, y);
+    const std::size_t place =
+        static_cast<std::size_t>(iy) * (static_cast<std::size_t>(grid.nx) + 1) +
+        static_cast<std::size_t>(ix);
+    return static_cast<std::uint32_t>(2 * place + (z == 0 ? 1 : 0));
   }
   void note(double miss, double x, double y) {
     ++off_;
@@ -387,6 +434,7 @@ class BodyCheck {
   double low_;
   double right_ = 0, top_ = 0, volume_ = 0;  // um
   std::size_t off_ = 0, no_numbers_ = 0, turned_ = 0;
+  EdgeCheck edges_;
   double most_ = 0, most_x_ = 0, most_y_ = 0;
 };
 

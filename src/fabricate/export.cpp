@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/folder.h"
 #include "base/memory.h"
@@ -44,11 +45,13 @@ std::string refusal(const ExportFormat& format, const TextureFacts& known,
   return {};
 }
 
-// One period along x and as much of whole cells along y; sides of 0 where nothing repeats. Two
-// periods along x hold two rows of a square lattice, one of a hexagonal.
+// One period along x and as much of whole cells along y; sides of 0 where nothing repeats, or not
+// all of it: a film of particles beside a lattice. Two periods along x hold two rows of a square
+// lattice, one of a hexagonal.
 Grid one_period(const Texture& texture, int pixels) {
-  const double period = facts(texture).period();
-  if (!(period > 0)) return {};
+  const TextureFacts known = facts(texture);
+  const double period = known.period();
+  if (!(period > 0) || known.free_patch.least > (1 + 1e-6) * period) return {};
   Grid cell = patch_grid(texture, 2 * (pixels + pixels % 2), 2 * period);
   cell.lx = period;
   cell.nx /= 2;
@@ -119,7 +122,8 @@ Grid rectangle(const Texture& texture, const Grid& square, double size_y) {
   const TextureFacts known = facts(texture);
   if (known.free_patch.exact && !known.cell) return square;
   Grid out = square;
-  out.ly = known.cell ? known.cell->y * std::max(1.0, std::round(size_y / known.cell->y))
+  const double least = std::max(size_y, known.free_patch.least);
+  out.ly = known.cell ? known.cell->y * std::max(1.0, std::round(least / known.cell->y))
                       : known.free_patch.side(size_y);
   constexpr double kMost = 1 << 29;  // more than any export has
   const double half = std::min(kMost, std::round(0.5 * out.nx * out.ly / out.lx));
@@ -154,6 +158,7 @@ void judge_size(Export& out, const ExportOptions& options) {
   const double size_y = options.size_y > 0 ? options.size_y : options.size;
   const auto off = [](double made, double asked) { return std::abs(made - asked) > 1e-6 * asked; };
   if (!(options.size > 0)) return;
+  const TextureFacts known = facts(out.texture);
   // The height of a square is only that of its lattice.
   if (!off(grid.lx, options.size) && (options.size_y == 0 || !off(grid.ly, size_y))) return;
   const auto side = [&](double x, double y) {
@@ -162,8 +167,9 @@ void judge_size(Export& out, const ExportOptions& options) {
   };
   out.warnings.push_back(fmt::format(
       "{} were asked for, {} are written: {}", side(options.size, size_y), side(grid.lx, grid.ly),
-      out.cells_x > 0 ? "a whole number of periods"
-      : facts(out.texture).free_patch.exact
+      out.cells_x > 0 && !(known.free_patch.least > std::min(options.size, size_y))
+          ? "a whole number of periods"
+      : known.free_patch.exact && out.cells_x == 0
           ? "a measured surface is its patch, texture.patch (`--repeat` tiles the EXR)"
           : "the smallest patch that holds the texture"));
 }
@@ -195,6 +201,34 @@ std::string lost_between_pixels(const Texture& texture, const Grid& grid) {
 
 const FeatureArray* array_of(const TextureFacts& known) {
   return std::get_if<FeatureArray>(&known.outline);
+}
+
+std::vector<Texture> arrays_of(const Texture& texture) {
+  const TextureFacts known = facts(texture);
+  if (!known.relief.present) return {};
+  if (array_of(known)) return {texture};
+  const auto* stack = std::get_if<Stack>(&texture.kind);
+  if (!stack || stack->combine != Combine::Sum) return {};
+  std::vector<Texture> out;
+  for (const Texture& part : stack->parts) {
+    const std::vector<Texture> own = arrays_of(part);
+    if (own.empty() && facts(part).relief.present) return {};
+    out.insert(out.end(), own.begin(), own.end());
+  }
+  // What a part leaves standing would be cut away by the others: only holes add up as masks.
+  const bool all_deep = std::all_of(out.begin(), out.end(),
+                                    [](const Texture& t) { return array_of(facts(t))->deep; });
+  return out.size() == 1 || all_deep ? out : std::vector<Texture>{};
+}
+
+std::optional<double> width_by_area(const Texture& texture, double share) {
+  const TextureFacts known = facts(texture);
+  const FeatureArray* array = array_of(known);
+  if (!array || !known.cell) return std::nullopt;
+  const double features = array->deep ? share : 1 - share;
+  if (array->shape == FeatureArray::Shape::Line) return features * array->period;
+  const double cell = known.cell->x * known.cell->y / (array->lattice == Lattice::Square ? 1 : 2);
+  return std::sqrt(4 / kPi * features * cell);
 }
 
 Texture compensated(const Texture& texture, const ProcessBias& bias) {
@@ -243,6 +277,170 @@ bool any_of(const std::vector<ExportFormat>& formats, bool (*holds)(const Export
   return std::any_of(formats.begin(), formats.end(), holds);
 }
 
+// What follows edges, by name; "": none of it is written.
+struct EdgeFiles {
+  std::string masks, layouts;  // "mask"; "gds, oasis"
+};
+
+EdgeFiles edge_files(const std::vector<ExportFormat>& formats) {
+  std::vector<std::string> masks, layouts;
+  for (const ExportFormat& format : formats) {
+    if (format.follows_outline) masks.emplace_back(format.name);
+    if (format.needs_outline) layouts.emplace_back(format.name);
+  }
+  return {join_names(masks), join_names(layouts)};
+}
+
+// A stack without one of its parts that have edges.
+struct Lacking {
+  std::string name;  // of the part: "2", of a stack in a stack "1.2"
+  std::string kind;  // "hole_array, 100 nm"
+  Texture rest;
+};
+
+std::vector<Lacking> without_each(const Stack& whole, const std::string& above) {
+  std::vector<Lacking> out;
+  for (std::size_t i = 0; i < whole.parts.size(); ++i) {
+    const Texture& part = whole.parts[i];
+    const std::string name = above + std::to_string(i + 1);
+    Stack rest = whole;
+    if (const auto* inner = std::get_if<Stack>(&part.kind)) {
+      for (Lacking& lacking : without_each(*inner, name + ".")) {
+        rest.parts[i] = std::move(lacking.rest);
+        out.push_back({lacking.name, lacking.kind, Texture{rest}});
+      }
+      continue;
+    }
+    const TextureFacts known = facts(part);
+    // Roughness without edges is made by no mask.
+    if (!known.relief.present || !std::isfinite(known.margins.smallest())) continue;
+    const std::optional<double> height = known.relief.height();
+    rest.parts.erase(rest.parts.begin() + static_cast<std::ptrdiff_t>(i));
+    out.push_back({name,
+                   std::string(texture_name(part)) +
+                       (height ? fmt::format(", {:.4g} nm", 1e9 * *height) : ""),
+                   Texture{rest}});
+  }
+  return out;
+}
+
+// What edges are judged on: one period, four pixels across the smallest hole or wall, or the whole
+// of a map that is smaller.
+Grid judged_grid(const Texture& texture, const Grid& whole) {
+  constexpr double kFewest = 256, kMost = 1024;
+  const TextureFacts known = facts(texture);
+  const int pixels = static_cast<int>(
+      std::clamp(std::ceil(4 * known.period() / known.margins.smallest()), kFewest, kMost));
+  const Grid period = one_period(texture, pixels);
+  const Grid own = period.lx > 0 ? period : patch_grid(texture, pixels);
+  return own.size() < whole.size() ? own : whole;
+}
+
+// The share of a part's places where the edges at so many levels of the depth follow it. Its places
+// are where it makes more than half of what it makes anywhere of the heights.
+double drawn_share(const Heightmap& whole, const Heightmap& without, int levels) {
+  const auto [low, high] = std::minmax_element(whole.z.begin(), whole.z.end());
+  const double top = *high, depth = *high - *low;
+  // How many levels a height lies below, as masks and layouts have them. On a level it is below for
+  // one of them and rounding decides for the other, so that it is not drawn there.
+  constexpr double kOnLevel = 1e-6;
+  const auto below = [&](double z) {
+    return std::clamp(std::ceil((top - z) / depth * levels + 0.5 - kOnLevel) - 1, 0.0,
+                      1.0 * levels);
+  };
+  double most = 0;
+  for (std::size_t i = 0; i < whole.z.size(); ++i)
+    most = std::max(most, std::abs(whole.z[i] - without.z[i]));
+  std::size_t places = 0, followed = 0;
+  for (std::size_t i = 0; i < whole.z.size(); ++i) {
+    if (!(std::abs(whole.z[i] - without.z[i]) > 0.5 * most)) continue;
+    ++places;
+    followed += below(whole.z[i]) != below(without.z[i]);
+  }
+  return places > 0 ? static_cast<double>(followed) / static_cast<double>(places) : 1;
+}
+
+// Slanted walls and round rims take a third of a small hole; of two equal gratings that cross, one
+// is drawn on the half of its places that lie on the other.
+bool is_drawn(double share) { return share >= 0.6; }
+
+// Parts of a stack that the edges of a mask or layout do not follow.
+void judge_parts(const std::vector<ExportFormat>& formats, const ExportOptions& options,
+                 Export& out) {
+  const auto* stack = std::get_if<Stack>(&out.texture.kind);
+  const EdgeFiles files = edge_files(formats);
+  if (!stack || (files.masks.empty() && files.layouts.empty())) return;
+  const auto [low, high] = std::minmax_element(out.heightmap.z.begin(), out.heightmap.z.end());
+  const double depth = *high - *low;
+  if (!(depth > 0)) return;
+  const std::vector<Lacking> parts = without_each(*stack, "");
+  const Grid grid = judged_grid(out.texture, out.heightmap.grid);
+  const Heightmap whole = generate(out.texture, grid);
+  std::vector<Heightmap> without;
+  for (const Lacking& part : parts) without.push_back(generate(part.rest, grid));
+  // The fewest levels above so many that draw all parts; none: they are too many.
+  const auto enough = [&](int levels) -> std::optional<int> {
+    for (int n = levels + 1; n <= kMostLevels; ++n) {
+      if (std::all_of(without.begin(), without.end(),
+                      [&](const Heightmap& h) { return is_drawn(drawn_share(whole, h, n)); }))
+        return n;
+    }
+    return std::nullopt;
+  };
+  const auto judge = [&](const std::string& names, int levels) {
+    if (names.empty()) return;
+    std::vector<double> shares;
+    for (const Heightmap& h : without) shares.push_back(drawn_share(whole, h, levels));
+    if (std::all_of(shares.begin(), shares.end(), is_drawn)) return;
+    std::vector<std::string> ways;
+    if (const std::optional<int> n = enough(levels))
+      ways.push_back(fmt::format("--levels {} draws it in a layout", *n));
+    if (!arrays_of(out.texture).empty())
+      ways.emplace_back("`papilla wafer` draws a mask for each part");
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (is_drawn(shares[i])) continue;
+      constexpr double kNone = 0.005;  // no whole per cent
+      out.warnings.push_back(fmt::format(
+          "part {} of the stack ({}) is {} in {}, whose edges are {} below the highest place{}{}",
+          parts[i].name, parts[i].kind,
+          shares[i] < kNone ? "not drawn"
+                            : fmt::format("drawn on {:.0f} % of its area only", 100 * shares[i]),
+          names,
+          levels == 1 ? fmt::format("{:.4g} nm, half of the depth,", 0.5e9 * depth)
+                      : fmt::format("{:.4g} nm and more", 0.5e9 * depth / levels),
+          ways.empty() ? "" : ": ", join_names(ways)));
+    }
+  };
+  if (options.levels == 1) {
+    const bool both = !files.masks.empty() && !files.layouts.empty();
+    judge(files.masks + (both ? " and " : "") + files.layouts, 1);
+  } else {
+    judge(files.masks, 1);
+    judge(files.layouts, options.levels);
+  }
+}
+
+// A mask has its edges at half the depth, a layout of an array at the land or the top of a pillar:
+// slanted walls and round rims part them.
+void judge_edges(const std::vector<ExportFormat>& formats, Export& out) {
+  const EdgeFiles files = edge_files(formats);
+  const TextureFacts known = facts(out.texture);
+  const FeatureArray* array = array_of(known);
+  if (!array || !known.relief.present || files.masks.empty() || files.layouts.empty()) return;
+  const Heightmap& h = out.heightmap;
+  const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
+  const double middle = 0.5 * (*low + *high);
+  const auto deep = std::count_if(h.z.begin(), h.z.end(), [&](double z) { return z < middle; });
+  const auto width =
+      width_by_area(out.texture, static_cast<double>(deep) / static_cast<double>(h.z.size()));
+  if (!width || std::abs(*width - array->width) <= std::max(h.grid.dx(), h.grid.dy())) return;
+  out.warnings.push_back(fmt::format(
+      "{} and {} have other widths: {} are {:.4g} um wide at half their depth, where {} is drawn, "
+      "and {:.4g} um at the {}, where {} is",
+      files.masks, files.layouts, array->drawn, 1e6 * *width, files.masks, 1e6 * array->width,
+      array->deep ? "land" : "top", files.layouts));
+}
+
 Export prepared(Texture drawn, const ExportOptions& options,
                 const std::vector<ExportFormat>& formats, double most_pixels = kMostPixels) {
   Export out;
@@ -263,6 +461,10 @@ Export prepared(Texture drawn, const ExportOptions& options,
   }
   judge_size(out, options);
   judge_repeat(formats, options, out.warnings);
+  judge_parts(formats, options, out);
+  judge_edges(formats, out);
+  if (any_of(formats, [](const ExportFormat& f) { return f.repeated; }))
+    out.repeat = options.repeat;
   return out;
 }
 

@@ -22,6 +22,8 @@ struct ProcessBias {
 // Throws InputError for textures without holes, pillars or grooves, and where nothing is left.
 Texture compensated(const Texture& texture, const ProcessBias& bias);
 
+inline constexpr int kMostLevels = 64;
+
 struct ExportOptions {
   // Names of fabricate/formats.h; empty: all that the texture and the polarity allow.
   std::vector<std::string> formats;
@@ -31,8 +33,8 @@ struct ExportOptions {
   int pixels = 1024;                 // along x
   std::optional<Polarity> polarity;  // needed for tiff and mask
   int repeat = 1;                    // EXR alone: times in x and y, streamed
-  int levels = 1;                    // layouts of textures that are no arrays: masks
-  double facet_error = 2e-9;         // layouts: of circles [m]
+  int levels = 1;             // layouts of textures that are no arrays: masks, kMostLevels at most
+  double facet_error = 2e-9;  // layouts: of circles [m]
   ProcessBias bias;
   std::optional<DoseCurve> dose_curve;  // needed for dose
 };
@@ -52,6 +54,7 @@ struct Export {
   Texture texture;  // as drawn: the process undone, with a layout the period on its grid
   Heightmap heightmap;
   int cells_x = 0, cells_y = 0;  // unit cells along either side; 0: nothing repeats within
+  int repeat = 1;                // times that the EXR holds the map along x and along y
   // What a layout holds, one of both; what a dose map holds.
   std::optional<LayoutArray> array;
   std::optional<LayoutContours> contours;
@@ -61,6 +64,13 @@ struct Export {
 
 // Equal features that a layout repeats; null: none.
 const FeatureArray* array_of(const TextureFacts& known);
+// The arrays that a texture is a sum of, one alone or all deep: what a mask each makes. Empty: it
+// is no such sum, or flat.
+std::vector<Texture> arrays_of(const Texture& texture);
+
+// Width [m] of such features that leave this share of the area below half their depth; none: of no
+// array.
+std::optional<double> width_by_area(const Texture& texture, double share);
 
 // Whether a mask of such pixels shows the texture: it has an outline, or is flat, and no pixel is
 // wider than half its smallest hole or wall.

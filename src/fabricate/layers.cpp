@@ -23,15 +23,16 @@ std::string length(double metres, const char* unit) {
 
 LayoutLayer layer_of(const FeatureArray& array, double depth) {
   const bool lines = array.shape == FeatureArray::Shape::Line;
-  return {1, fmt::format("{}_{}", capitals(array.drawn), array.deep ? "DEEP" : "HIGH"),
-          fmt::format("tone: polygons are {}; kind: {}; depth {}; {} {}; pitch {}{}",
-                      array.deep ? "deep, what is around them is high"
-                                 : "high, what is around them is deep",
-                      array.drawn, length(depth, "nm"), lines ? "width" : "diameter",
-                      length(array.width, "um"), length(array.period, "um"),
-                      lines                              ? ""
-                      : array.lattice == Lattice::Square ? ", square"
-                                                         : ", hexagonal")};
+  return {
+      1, fmt::format("{}_{}", capitals(array.drawn), array.deep ? "DEEP" : "HIGH"),
+      fmt::format(
+          "tone: polygons are {}; kind: {}; depth {}; {} {} at the {}; pitch {}{}",
+          array.deep ? "deep, what is around them is high" : "high, what is around them is deep",
+          array.drawn, length(depth, "nm"), lines ? "width" : "diameter", length(array.width, "um"),
+          array.deep ? "land" : "top", length(array.period, "um"),
+          lines                              ? ""
+          : array.lattice == Lattice::Square ? ", square"
+                                             : ", hexagonal")};
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ class RecordReader {
     o.size_y = number("size_y", 0, 1);
     o.pixels = static_cast<int>(number("pixels", 8, 65536));
     o.repeat = static_cast<int>(number("repeat", 1, 4096));
-    o.levels = static_cast<int>(number("levels", 1, 64));
+    o.levels = static_cast<int>(number("levels", 1, kMostLevels));
     o.facet_error = number("facet_error", 0, 1);
     o.bias = {number("shrink", -1, 1), number("edge_rounding", 0, 1)};
     if (const Json& polarity = member("polarity"); !polarity.is_null()) {
@@ -54,6 +54,7 @@ class RecordReader {
       out.limits.push_back({found->on, limit.get<double>(), found->at_least});
     }
     for (const Json& file : member("files")) read_file(file, out);
+    if (json_.contains("version")) out.version = text("version");
     if (o.dose_curve &&
         (o.dose_curve->depth.size() < 2 || o.dose_curve->depth.size() != o.dose_curve->grey.size()))
       fail("dose_curve");
@@ -140,7 +141,7 @@ Design with_own_maps(const Design& design, const Folder& folder) {
 }
 
 ExportRecord record_of(const Study& study, const ExportOptions& options, const Export& result) {
-  ExportRecord out{study.design, options, result.files, {}};
+  ExportRecord out{study.design, options, result.files, {}, PAPILLA_VERSION};
   // No file is made or judged by what is not known of the finger, and the belief lies elsewhere: a
   // record that named it could not be read on another machine.
   out.design.finger.belief.clear();
@@ -176,7 +177,8 @@ std::string record_json(const ExportRecord& record) {
               {"edge_rounding", o.bias.edge_radius},
               {"dose_curve", dose},
               {"limits", limits},
-              {"files", files}}
+              {"files", files},
+              {"version", record.version}}
       .dump();
 }
 

@@ -24,6 +24,7 @@ struct ExportRecord {
   ExportOptions options;  // formats: those of the files
   std::vector<ExportedFile> files;
   std::vector<Constraint> limits;  // of the study, as far as files show them
+  std::string version;             // that made the files; "": of 0.2.2 or earlier
 };
 
 // What the pixels of a file show of a limit; nothing of one that they do not tell.

@@ -64,6 +64,15 @@ FileVerdict verify_file(const ExportRecord& record, const Export& made, const Ex
     std::vector<std::string> faults =
         find_export_format(file.format)
             .check({made.heightmap, made.texture, record.options, info, share}, file.path);
+    // What is drawn of the same design, a preview or a layout, may be drawn otherwise by another
+    // version.
+    if (!faults.empty() && record.version != PAPILLA_VERSION) {
+      faults.push_back(fmt::format(
+          "it was made by {}, and this is {}, which may write such a file otherwise: make it anew "
+          "with `papilla export`",
+          record.version.empty() ? "papilla 0.2.2 or an earlier one" : "papilla " + record.version,
+          PAPILLA_VERSION));
+    }
     const FileState state = faults.empty() ? FileState::Sound : FileState::Differs;
     return {file.path, state, std::move(faults)};
   } catch (const InputError& error) {

@@ -35,25 +35,6 @@ struct Etch {
   double cell_x = 0, cell_y = 0;
 };
 
-// The arrays that a texture is a sum of; empty: it is none, or flat.
-std::vector<Texture> arrays_of(const Texture& texture) {
-  const TextureFacts known = facts(texture);
-  if (!known.relief.present) return {};
-  if (array_of(known)) return {texture};
-  const auto* stack = std::get_if<Stack>(&texture.kind);
-  if (!stack || stack->combine != Combine::Sum) return {};
-  std::vector<Texture> out;
-  for (const Texture& part : stack->parts) {
-    const std::vector<Texture> own = arrays_of(part);
-    if (own.empty() && facts(part).relief.present) return {};
-    out.insert(out.end(), own.begin(), own.end());
-  }
-  // What a part leaves standing would be cut away by the others: only holes add up as masks.
-  const bool all_deep = std::all_of(out.begin(), out.end(),
-                                    [](const Texture& t) { return array_of(facts(t))->deep; });
-  return out.size() == 1 || all_deep ? out : std::vector<Texture>{};
-}
-
 std::string gradual_refusal(const Texture& texture) {
   const TextureFacts known = facts(texture);
   if (const auto* none = std::get_if<NoOutline>(&known.outline)) return none->reason;

@@ -143,7 +143,7 @@ class PatchSolver {
       Closed closed = close(
           {std::vector<double>(plan_.grid.size()),
            attraction(gap, patch.water, water, nullptr, out)},
-          expected, start.slope_off,
+          patch.dry, expected, start.slope_off,
           [&](const Gap& at) {
             return attraction(at, rewet_timed(patch.water, at, water, out), water, nullptr, out);
           },
@@ -197,7 +197,7 @@ class PatchSolver {
         const WaterProperties water = water_properties(scene, scene.surface.contact_angle);
         Closed closed =
             close({capillary_traction(undriven.water_off, gap, water).value, std::move(found)},
-                  expected, start.slope_on, at, out);
+                  undriven.dry, expected, start.slope_on, at, out);
         on_state = std::move(closed.state);
         found = std::move(closed.last);
         start.slope_on = closed.slope;
@@ -336,15 +336,20 @@ class PatchSolver {
     double slope = 0;  // of the attraction over that applied, at the end
   };
 
+  static double touching(const ContactSolution& state) {
+    return static_cast<double>(count_above(state.pressure, 0));
+  }
+
   // Eq. coupling.2: contact under attractions, gap, water and field until they attract with what
-  // presses. Early states are solved loosely.
+  // presses. Early states are solved loosely. dry: under the load alone.
   template <class At>
-  Closed close(Known first, const ContactSolution& expected, double slope, const At& at,
-               PatchResult& out) const {
+  Closed close(Known first, const ContactSolution& dry, const ContactSolution& expected,
+               double slope, const At& at, PatchResult& out) const {
     constexpr double kFirst = 1e-2, kLater = 3e-3;  // tolerances of states that are not the last
     constexpr double kShortWay = 0.05;              // of the load: the first state is near the last
-    constexpr double kFull = 0.9;
     const double wanted = fidelity_.contact_tolerance, before = mean(first.applied);
+    const auto pixels = static_cast<double>(plan_.grid.size());
+    const double under_load = touching(dry);
     EquilibriumSearch search(problem_.pressure,
                              {std::move(first.applied), first.attraction.traction}, slope,
                              fidelity_.coupling_tolerance);
@@ -354,9 +359,7 @@ class PatchSolver {
     for (int pass = 0; pass < fidelity_.coupling_passes; ++pass) {
       now.state = contact(search.applied(), &now.state, tolerance, out);
       if (now.state.gap.empty()) return now;
-      const auto touching = std::count_if(now.state.pressure.begin(), now.state.pressure.end(),
-                                          [](double p) { return p > 0; });
-      if (static_cast<double>(touching) > kFull * static_cast<double>(plan_.grid.size())) {
+      if (is_pulled_shut(pixels, under_load, touching(now.state))) {
         out.status.note({Trouble::ClosedPullIn, 0, ""});
         return now;
       }

@@ -12,6 +12,12 @@ namespace papilla::forward {
 // Tractions of this shape with another mean; all of them 0: no shape.
 std::vector<double> with_mean(std::vector<double> traction, double wanted);
 
+// Whether attraction has closed a gap: of so many places those that touch under the load alone, and
+// those that touch under both. What the load has closed itself no attraction pulled in, and where
+// it leaves less than a twentieth open, closing that is no pull-in: its attraction is a part of all
+// that acts on the patch, whatever the gap there. Eq. coupling.2
+bool is_pulled_shut(double places, double under_load, double touching);
+
 // Seeks the tractions t that the gap which they close attracts with: T(t) = t, on the branch that
 // rises from t = 0. T is known where it is asked for: each state is a contact under t, whose gap
 // gives T. What the states found so far would attract with where their residuals T - t cancel best

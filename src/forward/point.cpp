@@ -88,10 +88,18 @@ struct GrownArea {
   double held = 1;  // of what it would be if it could be more than the patch
 };
 
+// area: estimate over the patch. Friction by a coefficient takes no area (Eq. friction.4).
+void note_full_contact(ResponsePoint& point, const Scene& scene, double area) {
+  if (area > 1 && !(scene.touch.coefficient > 0))
+    point.status.note({Trouble::FullContact, area, ""});
+}
+
 // Eq. friction.3: F ~ L^beta on the dry contact area of the patches in contact, of which there are
 // as many more as the open gaps press on (Eq. coupling.10).
 OffAndOn areas_by_load(ResponsePoint& point, const ScaleBridge& bridge, Patches patches,
-                       const Fidelity& fidelity, double area_factor) {
+                       const PointSetting& setting) {
+  const Fidelity& fidelity = setting.fidelity;
+  const double area_factor = setting.area_factor;
   const std::vector<double> dry = of_skins(patches, &PatchResult::area_dry);
   const std::vector<double> preload = of_skins(patches, &PatchResult::load);
   const double dry_mean = mean_estimate(dry).value, preload_mean = mean_estimate(preload).value;
@@ -100,7 +108,7 @@ OffAndOn areas_by_load(ResponsePoint& point, const ScaleBridge& bridge, Patches 
     const double ratio = ratio_estimate(loads, preload).value;
     const double factor = fidelity.area_by_load(ratio / growth);
     const double open = area_factor * dry_mean * factor;
-    if (open > 1) point.status.note({Trouble::FullContact, open, ""});
+    note_full_contact(point, setting.scene, open);
     GrownArea out;
     out.area.samples.resize(dry.size());
     if (open > 0) out.held = grown(area_factor * dry_mean, factor) / open;
@@ -126,11 +134,12 @@ OffAndOn areas_by_load(ResponsePoint& point, const ScaleBridge& bridge, Patches 
 }
 
 // Eq. friction.1, friction.2: resolved areas, ratio of sums over the skins.
-OffAndOn areas_resolved(ResponsePoint& point, double area_factor) {
+OffAndOn areas_resolved(ResponsePoint& point, const PointSetting& setting) {
   const auto area = [&](const std::vector<double>& samples) {
     const OverSkins none{0, std::vector<double>(samples.size())};
-    const OverSkins out = with_other(area_factor, {mean_estimate(samples).value, samples}, none);
-    if (out.value > 1) point.status.note({Trouble::FullContact, out.value, ""});
+    const OverSkins out =
+        with_other(setting.area_factor, {mean_estimate(samples).value, samples}, none);
+    note_full_contact(point, setting.scene, out.value);
     return out;
   };
   const OffAndOn out{area(point.samples.area_off), area(point.samples.area_on)};
@@ -252,8 +261,7 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
   const OffAndOn retention{retained(&PatchResult::retention), retained(&PatchResult::retention_on)};
   const bool by_load = setting.fidelity.estimator == Estimator::Load || !plan.traction_solves;
   const OffAndOn areas =
-      by_load ? areas_by_load(point, bridge, patches, setting.fidelity, setting.area_factor)
-              : areas_resolved(point, setting.area_factor);
+      by_load ? areas_by_load(point, bridge, patches, setting) : areas_resolved(point, setting);
   point.area_fraction_off = areas.off.measured();
   point.area_fraction_on = areas.on.measured();
   for (auto* samples : {&point.samples.area_off, &point.samples.area_on})

@@ -147,12 +147,15 @@ double driven_contact_angle(const Scene& scene, double relative_humidity) {
   // A modulated carrier counts as the sine that has its mean square.
   const bool modulated = scene.drive.waveform == Waveform::Am;
   const SourceVoltage source = source_voltage(scene, relative_humidity);
-  const double eta = electrowetting_number(
-      modulated ? std::numbers::sqrt2 * source.rms : source.peak,
-      wetted_series(scene, relative_humidity), scene.finger.water.surface_tension);
+  const double peak = modulated ? std::numbers::sqrt2 * source.rms : source.peak;
+  const double series = wetted_series(scene, relative_humidity);
+  const double eta = electrowetting_number(peak, series, scene.finger.water.surface_tension);
+  // Eq. electrostatics.22: below water a film takes no more charge from here on; a bare electrode
+  // has no film that would.
+  const double held = series > 0 ? scene.surface.saturated_air_field() * series / peak : 1;
   const bool sine = modulated || scene.drive.waveform == Waveform::Sine;
   return std::acos(std::clamp(
-      electrowetted_cosine(std::cos(undriven), std::cos(saturated), eta, sine), -1.0, 1.0));
+      electrowetted_cosine(std::cos(undriven), std::cos(saturated), eta, sine, held), -1.0, 1.0));
 }
 
 }  // namespace papilla::forward

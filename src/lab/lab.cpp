@@ -196,7 +196,7 @@ std::vector<Experiment> Lab::candidates() const {
     return out;
   }
   const CandidateConditions& c = file_.conditions;
-  const std::vector<double> frequencies = c.frequency.empty() ? std::vector{0.0} : c.frequency;
+  const std::vector<double> frequencies = carrier_frequencies(c);
   const std::size_t count = designs_.size() * c.load.size() * c.humidity.size() * c.voltage.size() *
                             frequencies.size() * c.states.size();
   if (count > kMostCandidates)

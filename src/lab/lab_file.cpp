@@ -73,12 +73,17 @@ std::vector<FingerState> finger_states(const CandidateConditions& conditions) {
   return out;
 }
 
+std::vector<double> carrier_frequencies(const CandidateConditions& conditions) {
+  return conditions.frequency.empty() ? std::vector{0.0} : conditions.frequency;
+}
+
 void fields(FieldVisitor& v, CandidateConditions& s) {
   v.numbers({"load", "N", 1e-6, 100, "normal forces that can be set"}, s.load);
   v.numbers({"humidity", "%", 0, 100, "relative humidities that can be set"}, s.humidity);
   v.numbers({"voltage", "V", 0, 1e5, "peak voltages; of each touch friction is read off and on"},
             s.voltage);
-  v.numbers({"frequency", "Hz", 0, 1e9, "of the carrier; none: that of the designs"}, s.frequency);
+  v.numbers({"frequency", "Hz", 0, 1e9, "of the carrier; 0, or none: that of the designs"},
+            s.frequency);
   std::string states;
   for (const std::string& one : s.states) states += (states.empty() ? "" : ",") + one;
   v.text({"states", "of the finger: \"clean\", \"clean,natural\""}, states);
@@ -97,7 +102,7 @@ void fields(FieldVisitor& v, FieldEntry& s) {
   v.number({"load", "N", 1e-6, 100, "normal force"}, s.load);
   v.number({"humidity", "%", 0, 100, "relative humidity"}, s.humidity);
   v.number({"voltage", "V", 0, 1e5, "peak"}, s.voltage);
-  v.number({"frequency", "Hz", 0, 1e9, "of the carrier"}, s.frequency);
+  v.number({"frequency", "Hz", 0, 1e9, "of the carrier; 0: that of its design"}, s.frequency);
   v.choice({"state", "of the finger"}, finger_state_names(), s.state);
 }
 

@@ -22,6 +22,8 @@ struct CandidateConditions {
 };
 
 std::vector<FingerState> finger_states(const CandidateConditions& conditions);
+// [Hz]; 0: that of each design, which is the only one where the lab names none.
+std::vector<double> carrier_frequencies(const CandidateConditions& conditions);
 
 struct DesignEntry {
   std::string name, file;

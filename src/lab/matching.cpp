@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "base/constants.h"
@@ -37,11 +38,14 @@ double distance(double value, double wanted, double absolute, double share) {
   return off <= band ? off / band : kInfinity;
 }
 
-// The nearest of some values, where it is near enough; the first among equals.
-double snapped(double value, const std::vector<double>& known, double absolute, double share) {
+// The nearest of some values, where it is near enough; the first among equals. meaning: what a
+// value stands for.
+template <class Meaning = std::identity>
+double snapped(double value, const std::vector<double>& known, double absolute, double share,
+               Meaning meaning = {}) {
   double out = value, least = kInfinity;
   for (const double k : known) {
-    const double off = distance(value, k, absolute, share);
+    const double off = distance(meaning(value), meaning(k), absolute, share);
     if (off >= least) continue;
     least = off;
     out = k;
@@ -77,6 +81,12 @@ class Matcher {
     out.on_sd = row.on_sd.value_or(0);
     if (out.on > 0 && !out.experiment.at.driven() && problems_.size() == before)
       problem("F_on", "a friction under voltage, but its experiment has none");
+    // Conditions say the design's own frequency by 0, a row a constant voltage.
+    if (row.on && row.frequency && problems_.size() == before) {
+      const std::string wrong =
+          frequency_problem(context_.designs[out.experiment.design].design.drive, *row.frequency);
+      if (!wrong.empty()) problem("frequency", wrong);
+    }
     if (problems_.size() > before) return std::nullopt;
     return out;
   }
@@ -112,8 +122,11 @@ class Matcher {
   double own_frequency(std::size_t design) const {
     return design < context_.designs.size() ? context_.designs[design].design.drive.frequency : 0;
   }
+  double carrier(double frequency, std::size_t design) const {
+    return frequency > 0 ? frequency : own_frequency(design);
+  }
   double frequency_of(const Conditions& at, std::size_t design) const {
-    return at.frequency > 0 ? at.frequency : own_frequency(design);
+    return carrier(at.frequency, design);
   }
 
   // Of all that is set at an instrument; infinite where something of it is beyond its band.
@@ -169,11 +182,9 @@ class Matcher {
     at.load = snapped(at.load, c.load, 0, kLoadBand);
     at.relative_humidity = snapped(at.relative_humidity, c.humidity, kHumidityBand, 0);
     at.voltage = snapped(at.voltage, c.voltage, 0, kVoltageBand);
-    const double own = own_frequency(design);
-    if (!c.frequency.empty())
-      at.frequency = snapped(at.frequency, c.frequency, 0, kFrequencyBand);
-    else if (distance(at.frequency, own, 0, kFrequencyBand) < kInfinity)
-      at.frequency = 0;
+    if (at.driven())
+      at.frequency = snapped(at.frequency, carrier_frequencies(c), 0, kFrequencyBand,
+                             [&](double frequency) { return carrier(frequency, design); });
     return at;
   }
 
@@ -294,10 +305,11 @@ class Matcher {
     at.load = needed(row.load, c.load, "load");
     at.relative_humidity = needed(row.relative_humidity, c.humidity, "humidity");
     at.voltage = needed(row.voltage, c.voltage, "voltage");
-    if (at.driven())
-      at.frequency = c.frequency.empty() ? row.frequency.value_or(0)
-                     : row.on            ? needed(row.frequency, c.frequency, "frequency")
-                                         : row.frequency.value_or(c.frequency.front());
+    if (at.driven()) {
+      const std::vector<double> known = carrier_frequencies(c);
+      at.frequency = row.on ? needed(row.frequency, known, "frequency")
+                            : row.frequency.value_or(known.front());
+    }
     at.state = needed(row.state, finger_states(c), "state");
     out.experiment = {index, snapped_to_candidates(at, index)};
   }

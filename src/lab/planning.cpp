@@ -159,6 +159,7 @@ PlanRecord plan_batch(const Standing& s, const ResponseTable& table,
   // What is said of the batch comes first: reason_to_stop takes further touches into the gain.
   plan.regret_now = decision->regret_now();
   plan.regret_after = decision->regret_after();
+  plan.best_worth = s.best_worth;
   plan.p_change = decision->p_change();
   add_outcomes(s, file, candidates, batch.chosen, *decision, table, plan.experiments);
   plan.stop_reason =

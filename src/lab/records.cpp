@@ -131,6 +131,7 @@ Json json_of(const PlanRecord& p, const Names& designs) {
     out["stop_reason"] = stop_reason_names()[static_cast<std::size_t>(*p.stop_reason)];
   if (p.ended) out["ended"] = batch_end_names()[static_cast<std::size_t>(*p.ended)];
   if (p.shortest > 0) out["shortest"] = p.shortest;
+  if (p.best_worth != 0) out["best_worth"] = p.best_worth;
   for (const PlannedExperiment& e : p.experiments)
     out["experiments"].push_back(json_of(e, designs));
   return out;
@@ -151,6 +152,7 @@ PlanRecord plan_of(const Json& j, const Names& designs) {
   if (j.contains("ended"))
     p.ended = named<BatchEnd>(j.at("ended"), batch_end_names(), "an end of a batch that is none");
   p.shortest = j.value("shortest", 0.0);
+  p.best_worth = j.value("best_worth", 0.0);
   for (const Json& e : j.at("experiments"))
     p.experiments.push_back({e.at("id"), e.at("field"), experiment_of(e.at("experiment"), designs),
                              e.at("repeats"), e.at("gain"), outcomes_of(e.at("off")),

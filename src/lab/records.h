@@ -38,11 +38,14 @@ struct PlanRecord {
   std::vector<PlannedExperiment> experiments;
   double seconds = 0;                       // of work
   double regret_now = 0, regret_after = 0;  // expected, without a decision 0
-  double p_change = 0;                      // that the readings choose another design
-  bool stop = false;                        // no more experiments are worth it
-  std::optional<StopReason> stop_reason;    // none: no stop, or a plan of an older program
-  std::optional<BatchEnd> ended;            // none: a plan of an older program
-  double shortest = 0;                      // of what took too long for the time [s]
+  // Of the best choice when it was planned, as a regret is a share of it; 0: as above, or a plan of
+  // an older program.
+  double best_worth = 0;
+  double p_change = 0;                    // that the readings choose another design
+  bool stop = false;                      // no more experiments are worth it
+  std::optional<StopReason> stop_reason;  // none: no stop, or a plan of an older program
+  std::optional<BatchEnd> ended;          // none: a plan of an older program
+  double shortest = 0;                    // of what took too long for the time [s]
 };
 
 // A friction that was measured, off and on where both were.

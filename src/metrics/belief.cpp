@@ -41,16 +41,18 @@ std::vector<double> meant(const BeliefValues& belief) {
 
 }  // namespace
 
-// Of a quantity that is a size. The capillary force and what is made of it may push or pull.
+// Of a quantity that is a size, and of every spread. The capillary force may push or pull.
 bool keeps_sign(Summary summary, const Metric& metric) {
   const auto* quantity = std::get_if<QuantityMetric>(&metric);
-  return quantity && !is_spread(summary) && quantity->quantity != &PointQuantities::capillary_force;
+  return is_spread(summary) ||
+         (quantity && quantity->quantity != &PointQuantities::capillary_force);
 }
 
 double moved(double value, double own, double there, bool keeps_sign) {
   if (!std::isfinite(own) || !std::isfinite(there)) return there;  // no field, no film
   constexpr double kMost = 2;
-  const bool in_proportion = keeps_sign && value > 0 && own >= 0;
+  // Two readings of 0 agree: the number is the member's.
+  const bool in_proportion = keeps_sign && value >= 0 && own >= 0 && (value > 0 || own > 0);
   return value + (in_proportion ? std::min(value / own, kMost) : 1) * (there - own);
 }
 
@@ -114,8 +116,12 @@ std::optional<BeliefDifference> belief_difference(const BeliefValues& first,
   }
   BeliefDifference out{both.deviation(), 0, 0, 0};
   both.values = meant(both);
-  for (std::size_t m = 0; m < both.values.size(); ++m)
+  double all = 0;  // the weights sum to 1 but for their last digits
+  for (std::size_t m = 0; m < both.values.size(); ++m) {
     out.above += first.weights[m] * (both.values[m] > 0 ? 1 : both.values[m] < 0 ? 0 : 0.5);
+    all += first.weights[m];
+  }
+  out.above /= all;
   out.low = weighted_quantile(both.values, first.weights, 0.025);
   out.high = weighted_quantile(both.values, first.weights, 0.975);
   return out;

@@ -66,7 +66,7 @@ struct BeliefValues {
   // interval.
   double quantile(double p) const;
 };
-// Whether a number that a member moves cannot change its sign.
+// Whether a number that a member moves cannot change its sign: a size, or a spread.
 bool keeps_sign(Summary summary, const Metric& metric);
 using Number = std::function<std::optional<double>(const std::vector<ResponsePoint>&)>;
 // value: of the response; nothing: of the runs themselves. Nothing where a member has no number.

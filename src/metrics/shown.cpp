@@ -37,11 +37,17 @@ std::optional<int> shown_decimals(const MetricExpression& e) {
   return resolved > 0 ? std::max(0, 1 - static_cast<int>(std::round(std::log10(resolved)))) : 3;
 }
 
+double without_noise(const MetricExpression& e, double si) {
+  constexpr double kNoise = 1e-3;
+  return std::abs(si) < kNoise * resolution(e) ? 0 : si;
+}
+
 std::string shown_value(const MetricExpression& e, double si, bool with_sign, int decimals) {
   const double v = si * shown_unit(e).scale + 0.0;  // a zero has no sign
   const std::optional<int> usual = shown_decimals(e);
   const std::string text = usual ? fixed(v, std::max(decimals, *usual)) : fmt::format("{:.4g}", v);
-  return fmt::format("{}{}", with_sign && !text.starts_with('-') ? "+" : "", text);
+  const bool nothing = text.find_first_of("123456789") == std::string::npos && std::isfinite(v);
+  return fmt::format("{}{}", with_sign && !nothing && !text.starts_with('-') ? "+" : "", text);
 }
 
 std::string shown_change(const MetricExpression& e, double si) {

@@ -23,7 +23,11 @@ std::string si_unit(const MetricExpression& expression);
 // where that is not known. Nothing of a quantity: it has so many digits.
 std::optional<int> shown_decimals(const MetricExpression& expression);
 
-// With these decimals, `decimals` at least; of a quantity four digits. Never "-0.000".
+// 0 where the value is less than a thousandth of what instruments resolve: what theory leaves there
+// is the last bits of its sums.
+double without_noise(const MetricExpression& expression, double si);
+
+// With these decimals, `decimals` at least; of a quantity four digits. What reads as 0 has no sign.
 std::string shown_value(const MetricExpression& expression, double si, bool with_sign = false,
                         int decimals = 0);
 // "+0.0051", "-1.2": a small change.

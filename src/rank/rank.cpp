@@ -109,9 +109,9 @@ class StateRanker {
   double size_of(const Candidate& x, std::size_t criterion) const {
     const double mean = mean_estimate(x.samples(criterion)).value;
     const MetricExpression& e = options_.criteria[criterion].expression;
-    const bool sure = is_spread(e.summary) || keeps_sign(e.summary, e.metric);
-    return sure || !options_.moves_finger() ? std::abs(mean)
-                                            : std::hypot(mean, step_error(x.steps(criterion)));
+    return keeps_sign(e.summary, e.metric) || !options_.moves_finger()
+               ? std::abs(mean)
+               : std::hypot(mean, step_error(x.steps(criterion)));
   }
 
   // One board a criterion, and the score's in front where there is one of several.

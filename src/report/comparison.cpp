@@ -145,6 +145,53 @@ std::vector<Common> common_objectives(const Side& first, const Side& second) {
   return out;
 }
 
+enum class CommonSkins { None, Some, All };
+
+// On which skins both runs judged their designs: these are drawn by the seed of the search, of the
+// fingers' numbers, as many as the accuracy and the number of tasks ask for; where the time of a
+// run is limited it may give up skins and pixels.
+CommonSkins common_skins(const Study& a, const Study& b) {
+  const auto alike = [](Finger one, Finger other) {
+    one.belief.clear(), other.belief.clear();  // where a file lies is no number of the skin
+    return one == other;
+  };
+  const bool drawn_alike = a.search.seed == b.search.seed &&
+                           alike(a.design.finger, b.design.finger) &&
+                           std::equal(a.population.begin(), a.population.end(),
+                                      b.population.begin(), b.population.end(), alike);
+  if (!drawn_alike) return CommonSkins::None;
+  const auto scenarios = [](const Study& study) {  // that are tasks
+    const auto counted = std::count_if(study.scenarios.begin(), study.scenarios.end(),
+                                       [](const Scenario& s) { return s.weight > 0; });
+    return study.scenarios.empty() ? 1 : counted;
+  };
+  const bool as_many = a.design.accuracy == b.design.accuracy && scenarios(a) == scenarios(b) &&
+                       a.scatter.size() == b.scatter.size() && a.search.time == 0 &&
+                       b.search.time == 0;
+  return as_many ? CommonSkins::All : CommonSkins::Some;
+}
+
+// What ± of a difference is made of.
+std::string errors_text(const Side& first, const Side& second) {
+  switch (common_skins(first.study, second.study)) {
+    case CommonSkins::All:
+      return "Both runs have the same seed, accuracy and fingers: their designs were judged on "
+             "the same skins, and what these do to both alike is not in the difference. So its "
+             "±, of standard errors that add in squares, is an upper bound: more may be apart "
+             "than is said. Apart: by more than two of it.";
+    case CommonSkins::Some:
+      return "Both runs have the same seed and fingers, but perhaps not as many skins and pixels "
+             "(by their accuracy, scenarios, scatter, or a limit on their time): their designs "
+             "were judged on partly the same skins, and some of what these do to both alike is "
+             "not in the difference. Its ± is of standard errors that add in squares: more may be "
+             "apart than is said. Apart: by more than two of it.";
+    case CommonSkins::None:
+      break;
+  }
+  return "The runs are independent: their standard errors add in squares. Apart: by more than two "
+         "of them.";
+}
+
 double number(const Json& finalist, const char* what, std::size_t place) {
   const Json& all = finalist.at("confirmed").at(what);
   return place < all.size() && all[place].is_number() ? all[place].get<double>()
@@ -172,10 +219,13 @@ std::string recommended_table(const Side& first, const Side& second,
     const double error = std::hypot(ea, eb);
     const bool apart = std::abs(vb - va) > 2 * error;
     const bool better = (vb > va) == c.objective.maximise;
+    // On the same skins one design has one number, which no error tells from itself.
+    const bool same = va == vb && common_skins(first.study, second.study) == CommonSkins::All;
     out += markdown_row({c.objective.name, text(va, ea, false), text(vb, eb, false),
-                         text(vb - va, error, true) + (!apart   ? ", not told apart"
-                                                       : better ? ", better"
-                                                                : ", worse")});
+                         same ? std::string("none: the same number")
+                              : text(vb - va, error, true) + (!apart   ? ", not told apart"
+                                                              : better ? ", better"
+                                                                       : ", worse")});
   }
   std::vector<std::string> paths;
   const auto shown = [](const Side& side, const Json& finalist, const std::string& path) {
@@ -215,11 +265,14 @@ std::vector<std::vector<double>> front_points(const Side& side, const std::vecto
   return out;
 }
 
-// How much of what both fronts reach together each reaches alone.
+// How much of what both fronts reach together each reaches alone, of two objectives or more.
 std::string reach_text(const Side& first, const Side& second, const std::vector<Common>& common) {
   const auto a = front_points(first, common, &Common::first),
              b = front_points(second, common, &Common::second);
-  if (common.size() < 2 || a.empty() || b.empty()) return "";
+  if (a.empty() && b.empty())
+    return fmt::format("Neither {} nor {} has a front.\n", first.name, second.name);
+  if (a.empty() || b.empty())
+    return fmt::format("{} has no front.\n", (a.empty() ? first : second).name);
   auto all = a;
   all.insert(all.end(), b.begin(), b.end());
   std::vector<double> worst = all[0], best = all[0];
@@ -232,7 +285,9 @@ std::string reach_text(const Side& first, const Side& second, const std::vector<
   // A tenth of the range beyond the worst, so that the ends of a front count too.
   for (std::size_t k = 0; k < worst.size(); ++k) worst[k] += 0.1 * (worst[k] - best[k]);
   const double whole = hypervolume(all, worst);
-  if (!(whole > 0)) return "";
+  if (!(whole > 0))
+    return "There is no hypervolume to compare: in one of the objectives all designs of both "
+           "fronts have the same number.\n";
   return fmt::format(
       "Of the hypervolume that both fronts reach together, {} reaches {:.0f} % and {} {:.0f} % "
       "(reference: a tenth of the range beyond the worst of both).\n",
@@ -277,10 +332,9 @@ std::string said(const Side& side) {
 
 std::string markdown(const Side& first, const Side& second, const std::vector<Common>& common) {
   return fmt::format("# {} and {}\n\n", first.name, second.name) + "## What each recommends\n\n" +
-         said(first) + said(second) + recommended_table(first, second, common) +
-         "\nThe runs are independent: their standard errors add in squares. Apart: by more than "
-         "two of them.\n" +
-         "\n## Their fronts\n\n" + reach_text(first, second, common) +
+         said(first) + said(second) + recommended_table(first, second, common) + "\n" +
+         errors_text(first, second) + "\n" +
+         (common.size() < 2 ? "" : "\n## Their fronts\n\n" + reach_text(first, second, common)) +
          "\n## What was asked differently\n\n" + settings_table(first, second);
 }
 

@@ -461,6 +461,18 @@ std::string without_skins_sentence(const ResultFiles& f) {
       join_names(without));
 }
 
+// Why a surface without texture is recommended where belief prefers another design: "" of a design
+// that was picked.
+std::string beside_belief_sentence(const ResultFiles& f, std::size_t shown) {
+  if (shown == f.result.best) return {};
+  // The best may itself be a surface without texture: what it changes is the finish.
+  const bool textured = facts(f.result.finalists[f.result.best].design.texture).relief.present;
+  return fmt::format(
+      " The recommendation follows the objectives, in which the {} of {} gains no more than the "
+      "error of the difference; belief is judged in {}.",
+      textured ? "texture" : "finish", name_of(f, f.result.best), worth_name(f));
+}
+
 // How much of the doubt more skins would take away, and what only measurements can.
 std::string settled_sentence(const ResultFiles& f) {
   const Decision& d = decision_of(f);
@@ -551,7 +563,8 @@ std::vector<std::string> decision_grounds(const ResultFiles& f) {
       p_best_text(f, shown), members_text(f), skins_text(f), behind_text(f, shown));
   const std::string unanswered = unanswered_sentence(f);
   if (shown != d.best)
-    return {sure + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f)) + unanswered};
+    return {sure + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f)) +
+            beside_belief_sentence(f, shown) + unanswered};
   std::vector<std::string> out{sure + "." + unanswered + felt_sentence(f, shown) +
                                settled_sentence(f) + others_sentence(f) + limits_sentence(f)};
   out.push_back("What would overturn it: " + overturned_text(f) + ".");
@@ -610,7 +623,8 @@ std::string decision_text(const ResultFiles& f) {
         fmt::format("\n- Under hypothesis \"{}\" ({} of belief) {}.", r.name, hypothesis_share(r),
                     r.known > 0 ? name_of(f, r.best) + " has " + chosen_how(f) + by_loss(f, r)
                                 : std::string("no design of the front has an answer"));
-  return out + fmt::format("\n\nWhat would overturn it: {}.\n", overturned_text(f));
+  return out + fmt::format("\n\nWhat would overturn the choice of {}: {}.\n",
+                           f.result.finalists[d.best].folder, overturned_text(f));
 }
 
 Json prospect_json(const ResultFiles& f, std::size_t finalist) {
@@ -651,7 +665,7 @@ Json decision_json(const ResultFiles& f) {
       kept.push_back(d.worth.keeps(i, m));
     }
     designs[folder(i)]["worth_at_members"] = std::move(worth);
-    designs[folder(i)]["worth_moved_by_skins"] = d.worth.moves_of_skins(i);
+    designs[folder(i)]["worth_moved_by_skins"] = d.worth.mean_moves(i);
     designs[folder(i)]["limits_kept_at_members"] = std::move(kept);
   }
   Json out{{"absent", ""},

@@ -24,8 +24,8 @@ struct LimitText {
   const char* name;
   const char* unit;
 };
-constexpr std::array<LimitText, 3> kLimits{
-    {{"body current", "mA"}, {"source voltage", "V"}, {"gap voltage", "V"}}};
+constexpr std::array<LimitText, 4> kLimits{
+    {{"body current", "mA"}, {"source voltage", "V"}, {"gap voltage", "V"}, {"film voltage", "V"}}};
 
 const LimitText& text_of(DriveLimit limit) { return kLimits[static_cast<std::size_t>(limit)]; }
 
@@ -37,6 +37,8 @@ double value_of(DriveLimit limit, const DriveResponse& r) {
       return r.source_voltage;
     case DriveLimit::GapVoltage:
       return r.gap_voltage;
+    case DriveLimit::FilmVoltage:
+      return r.film_voltage;
   }
   return 0;
 }
@@ -49,13 +51,16 @@ Json sine_json(const DriveResponse& r) {
           {"ripple", r.ripple}};
 }
 
+// Null of a layer of thickness 0, which has no capacitance.
 Json layer_json(const ImpedanceLayer& layer) {
+  if (!layer.present()) return nullptr;
   return {{"resistance", json_number(layer.resistance)},
           {"capacitance", layer.capacitance},
           {"corner_frequency", layer.corner_frequency()}};
 }
 
 std::string layer_line(const char* name, const ImpedanceLayer& layer) {
+  if (!layer.present()) return fmt::format("{:<11} {:>14}\n", name, "none");
   const std::string resistance = std::isfinite(layer.resistance)
                                      ? fmt::format("{:.4g} Mohm", 1e-6 * layer.resistance)
                                      : std::string("insulator");
@@ -219,7 +224,9 @@ Json swipe_json(const Swipe& swipe) {
 
 std::string drive_text(const DriveCase& c, const DriveResult& r) {
   std::string out = c.title.empty() ? "" : c.title + '\n';
-  out += layer_line("dielectric", r.network.dielectric);
+  // Layers that relax have lines of their own.
+  if (r.network.dielectric.present() || r.network.relaxing.empty())
+    out += layer_line("dielectric", r.network.dielectric);
   for (const ImpedanceLayer& layer : r.network.relaxing) out += layer_line("relaxing", layer);
   out += layer_line("gap", r.network.gap.layer) + layer_line("skin", r.network.skin);
   out += fmt::format(

@@ -134,6 +134,10 @@ std::string size_line(const Export& result) {
     out += fmt::format(", {} x {} periods of {:.6g} x {:.6g} um", result.cells_x, result.cells_y,
                        1e6 * grid.lx / result.cells_x, 1e6 * grid.ly / result.cells_y);
   }
+  if (result.repeat > 1) {
+    out += fmt::format("; the EXR {0} x {0} times that: {1:.6g} x {2:.6g} um", result.repeat,
+                       1e6 * result.repeat * grid.lx, 1e6 * result.repeat * grid.ly);
+  }
   return out + '\n';
 }
 
@@ -141,8 +145,10 @@ std::string size_line(const Export& result) {
 
 Export export_with_record(const Study& study, const ExportOptions& options,
                           const std::string& folder, const FileProgress& progress,
-                          const std::vector<ExportedFile>& beside) {
+                          const std::vector<ExportedFile>& beside,
+                          const std::vector<std::string>& warnings) {
   Export result = prepare_export(study.design, options);  // what is refused leaves no folder
+  result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
   const Folder place = Folder::made(folder);
   const SoleWriter alone(place, "another export is writing");
   write_files(study.design, options, folder, progress, result);

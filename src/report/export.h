@@ -14,10 +14,11 @@ namespace papilla::report {
 
 // export_design, and export.json beside its files: sizes, polarity, margins, what the layout is,
 // and what they were made from. beside: files of other makers in the folder that the record names
-// too.
+// too. warnings: known of the design before, for the record and who reads the result.
 Export export_with_record(const Study& study, const ExportOptions& options,
                           const std::string& folder, const FileProgress& progress = {},
-                          const std::vector<ExportedFile>& beside = {});
+                          const std::vector<ExportedFile>& beside = {},
+                          const std::vector<std::string>& warnings = {});
 
 // What is known of the files of an export once they are written.
 struct ExportVerdict {

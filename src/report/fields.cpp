@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "geometry/io/files.h"
-#include "report/legend.h"
+#include "geometry/io/legend.h"
 
 namespace papilla::report {
 namespace {

@@ -104,6 +104,14 @@ std::string summary_section(const Calibration& c, const CalibrationResult& r) {
       c.data.empty() || c.check.level == c.sampling.level
           ? ""
           : fmt::format("; frictions corrected to level {} on the same skins", c.check.level));
+  // Eq. calibration.5 has no covariance of the rows by the skins that they share.
+  constexpr int kFewSkins = 12;
+  if (c.sampling.skins < kFewSkins)
+    out += fmt::format(
+        "All residuals meet these skins, and what they leave open counts as each one's own: of "
+        "fewer than {} the parameters may be off by more than their intervals say "
+        "(`[sampling] skins`).\n",
+        kFewSkins);
   if (!c.data_notes.empty())
     out += fmt::format("Of the table of friction: {}.\n", join_names(c.data_notes, "; "));
   return out;
@@ -119,6 +127,9 @@ std::vector<std::string> verdicts(const Calibration& c, const CalibrationResult&
       out.push_back(
           fmt::format("{} is not identified: {:.0f} % of what is known of it is the prior's", path,
                       100 * (1 - f.data_share)));
+    } else if (f.low_open && f.high_open) {
+      out.push_back(fmt::format(
+          "{} is known to neither side: its interval is all of what the bounds leave", path));
     } else if (f.at_bound || f.low_open || f.high_open) {
       out.push_back(
           fmt::format("{} is known to one side only: its interval ends at a bound", path));

@@ -49,15 +49,15 @@ const char* state_text(FingerState state) {
   return "wet fingers";
 }
 
-// " (worst(voltage_for(modulation = 0.3)) 147.5 ± 2.1 V)": what was found of what is recommended;
-// "" where a limit alone asks for it.
+// " (worst(voltage_for(modulation = 0.3)) 147.5 ± 2.1 V)": what was found of what is built; ""
+// where a limit alone asks for it.
 std::string found_voltages(const ResultFiles& f) {
-  const Score score = recommended_of(f).confirmed;
+  const Score score = built_score(f);
   std::vector<std::string> out;
   for (std::size_t k = 0; k < score.values.size(); ++k) {
     const StudyObjective& o = f.problem.objectives()[k];
     if (!o.aimed && std::holds_alternative<VoltageFor>(o.expression.metric))
-      out.push_back(o.name + " " + objective_text(f, "what is recommended", score, k));
+      out.push_back(o.name + " " + objective_text(f, scored_name(f), score, k));
   }
   return out.empty() ? "" : " (" + join_names(out) + ")";
 }
@@ -220,12 +220,12 @@ std::string model_text(const ResultFiles& f) {
 
 // A modulation that nobody feels somewhere.
 std::string felt_text(const ResultFiles& f) {
-  const double worst = recommended_of(f).confirmed.worst;
+  const double worst = built_score(f).worst;
   if (!f.problem.judged_at_amplitude() || worst >= kNoticed) return {};
   return fmt::format(
       "At its worst, over fingers and humidity, the modulation is {}: below {}, the least "
       "relative difference of friction that people notice (Fehlberg 2022), it is not felt there.",
-      worst_text("what is recommended", worst), noticed_text());
+      worst_text(scored_name(f), worst), noticed_text());
 }
 
 // How it looks, where the study says what the glass is.
@@ -235,11 +235,12 @@ std::string look_text(const ResultFiles& f) {
   if (!asked || !(facts(built.texture).quick_look || f.problem.goals().looks)) return {};
   const Optics look = appearance_of(built);
   if (look.refused()) return "Its haze is not known: " + look.warning + ".";
-  return fmt::format("It has {} haze{}.",
-                     stated(bare_number("haze of what is built", 100 * look.haze, "%", kOfALook,
-                                        {Stage::Confirm, Stage::Rounding}),
-                            significant(100 * look.haze, 3) + " %"),
-                     look.warning.empty() ? "" : " (" + look.warning + ")");
+  return fmt::format(
+      "It has {} haze{}.",
+      stated(bare_number("haze of what is built", 100 * look.haze, "%", kOfALook,
+                         {Stage::Confirm, Stage::Rounding}),
+             significant(100 * without_noise(parse_metric("haze"), look.haze), 3) + " %"),
+      look.warning.empty() ? "" : " (" + look.warning + ")");
 }
 
 // How a film lies on a texture.
@@ -332,9 +333,12 @@ std::string other_rule_text(const ResultFiles& f) {
     values.push_back(fmt::format("a worst modulation of {} in place of {}",
                                  worst_text(name, there.worst),
                                  worst_text("what is recommended", here.worst)));
+  // The lead has the numbers on the grid of the fab where there are any; another front design has
+  // none there.
   return fmt::format(
-      "By the rule \"knee\", which weighs all objectives alike, {} would be built: {}.", name,
-      join_names(values));
+      "By the rule \"knee\", which weighs all objectives alike, {} would be built: {}{}.", name,
+      join_names(values),
+      worth_on_grid(f.problem, f.result) ? " (both before rounding to the grid of the fab)" : "");
 }
 
 // Dimensions that a limit leaves nothing or little: what the fab has to know first.

@@ -145,7 +145,8 @@ TellReport tell_lab(const TellRun& run) {
     }
   }
   write_lab(lab);
-  if (!out.markdown.empty()) out.markdown += "\n" + lab_standing_text(lab);
+  if (!out.markdown.empty())
+    out.markdown += "\n# Where the lab stands\n\n" + lab_standing_text(lab);
   out.json = nlohmann::ordered_json{{"schema", 1},
                                     {"files", std::move(files)},
                                     {"state", nlohmann::ordered_json::parse(lab_state_json(lab))}}

@@ -168,6 +168,7 @@ std::string lab_state_json(Lab& lab) {
   return dumped({{"schema", 1},
                  {"source", lab.file().source},
                  {"standing", standing_json(lab)},
+                 {"summary", lab_summary_text(lab)},
                  {"plans", std::move(plans)},
                  {"why", why},
                  {"told", std::move(told)},

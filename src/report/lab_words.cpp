@@ -53,10 +53,11 @@ std::string in_worth_unit(const Lab& lab, double difference) {
   return significant(shown.scale * difference, 2) + (shown.unit.empty() ? "" : " " + shown.unit);
 }
 
-std::string regret_text(const Lab& lab, const Standing& s, double regret) {
-  if (s.best_worth == 0) return in_worth_unit(lab, regret);
+// best_worth: of the same time; 0: not known.
+std::string regret_text(const Lab& lab, double best_worth, double regret) {
+  if (best_worth == 0) return in_worth_unit(lab, regret);
   return fmt::format("{} ({} %)", in_worth_unit(lab, regret),
-                     significant(100 * regret / std::abs(s.best_worth), 2));
+                     significant(100 * regret / std::abs(best_worth), 2));
 }
 
 bool of_run(const Lab& lab) { return !lab.file().worth_file.empty(); }
@@ -76,7 +77,7 @@ std::string choices_table(const Lab& lab, const Standing& s) {
                          significant(shown.scale * v.low, 3), significant(shown.scale * v.high, 3));
     };
     std::vector<std::string> row{choice_name(lab, s, i), lab_percent(s.prospects[i].p_best),
-                                 regret_text(lab, s, s.prospects[i].regret),
+                                 regret_text(lab, s.best_worth, s.prospects[i].regret),
                                  band(s.worth[i].times(worth_sign(lab.file(), s))),
                                  i == s.best ? "" : band(s.behind[i])};
     if (limited) row.push_back(lab_percent(s.prospects[i].p_limits));
@@ -135,7 +136,7 @@ std::string discrepancy_text(const Standing& s) {
   std::string out = fmt::format(
       "The members explain all readings with probability {} (chi squared {} a reading).",
       lab_percent(d.none), significant(d.misfit, 2));
-  if (d.none > 0.5) return out + "\n";
+  if (d.none > 0.5) return out;
   out += fmt::format(
       " What no member explains is most likely found {} (probability {}): friction is {:+.0f} % ± "
       "{:.0f} % off there.",
@@ -144,7 +145,7 @@ std::string discrepancy_text(const Standing& s) {
   if (d.found.size() > 1 && d.found[1].probability > 0.05)
     out += fmt::format(" If not, it is found {} (probability {}).", d.found[1].where,
                        lab_percent(d.found[1].probability));
-  return out + "\n";
+  return out;
 }
 
 std::string gauge_text(const Lab& lab, const Standing& s) {
@@ -163,14 +164,23 @@ std::string gauge_text(const Lab& lab, const Standing& s) {
   return out.empty() ? out : "\nThe instrument:\n\n" + out;
 }
 
-std::string members_text(const Standing& s) {
+bool of_several_fingers(const Lab& lab) {
+  const std::vector<FrictionReading> readings = lab.readings();
+  return std::any_of(readings.begin(), readings.end(),
+                     [&](const FrictionReading& r) { return r.finger != readings.front().finger; });
+}
+
+std::string members_text(const Lab& lab, const Standing& s) {
   std::string out = fmt::format("The belief is as good as {} equally weighted members.",
                                 significant(s.effective_members, 3));
   if (s.effective_members < kFewMembers)
-    out +=
-        " These are too few to rely on: fit it again to all readings (`papilla calibrate` takes "
-        "readings.csv of this folder), and open a new lab with the belief of that fit.";
-  return out + "\n";
+    out += fmt::format(
+        " These are too few to rely on: fit it again to all readings{} (`papilla calibrate` takes "
+        "readings.csv of this folder; add the rows of the table that the belief was fitted to), "
+        "with more `belief.members` where it had hardly more from the start, and open a new lab "
+        "with the belief of that fit.",
+        of_several_fingers(lab) ? " of one finger, which `data_finger` names" : "");
+  return out;
 }
 
 // "below 61 mN: front/02 (80 %); between: ...; above 75 mN: front/05 (64 %)"
@@ -231,20 +241,29 @@ std::string plan_table(const Lab& lab, const PlanRecord& plan) {
   return out;
 }
 
+// That no more is worth measuring, and why; "" where it is.
+std::string stop_reason_text(const Lab& lab, const PlanRecord& plan) {
+  if (plan.aim != Aim::Decision || !plan.stop_reason) return {};
+  const std::string regret = regret_text(lab, plan.best_worth, plan.regret_now);
+  switch (*plan.stop_reason) {
+    case StopReason::Regret:
+      return fmt::format(
+          "Stop: the expected regret of the choice, {}, is below the least that is worth measuring "
+          "(`stop` in lab.toml).",
+          regret);
+    case StopReason::NoChange:
+      return fmt::format(
+          "Stop: more experiments would hardly change the choice. Of its expected regret, {}, they "
+          "would save less than is worth measuring (`stop` in lab.toml).",
+          regret);
+  }
+  return {};
+}
+
 std::string stop_text(const Lab& lab, const Standing& s, const PlanRecord& plan) {
   if (plan.aim != Aim::Decision) return {};
-  if (plan.stop_reason == StopReason::Regret)
-    return fmt::format(
-               "\nStop: the expected regret of the choice, {}, is below the least that is worth "
-               "measuring (`stop` in lab.toml).\n",
-               regret_text(lab, s, plan.regret_now)) +
-           broken_limits_text(lab, s);
-  if (plan.stop_reason == StopReason::NoChange)
-    return fmt::format(
-               "\nStop: more experiments would hardly change the choice. Of its expected regret, "
-               "{}, they would save less than is worth measuring (`stop` in lab.toml).\n",
-               regret_text(lab, s, plan.regret_now)) +
-           broken_limits_text(lab, s);
+  if (const std::string reason = stop_reason_text(lab, plan); !reason.empty())
+    return "\n" + reason + "\n" + broken_limits_text(lab, s);
   return "\nStop when the expected regret is below `stop` of lab.toml: `papilla tell` says it "
          "after "
          "every table.\n";
@@ -280,8 +299,8 @@ std::string criterion_text(const Lab& lab, const Standing& s) {
 }
 
 std::string decision_reason(const Lab& lab, const Standing& s, const PlanRecord& plan) {
-  const std::string now = regret_text(lab, s, plan.regret_now),
-                    then = regret_text(lab, s, plan.regret_after);
+  const std::string now = regret_text(lab, plan.best_worth, plan.regret_now),
+                    then = regret_text(lab, plan.best_worth, plan.regret_after);
   const std::string why =
       plan.regret_after < plan.regret_now && then != now
           ? fmt::format(
@@ -326,7 +345,7 @@ std::string lab_standing_text(Lab& lab) {
     const Prospect& best = s.prospects[s.best];
     out += fmt::format("{} is the best of {} in {} with probability {}; expected regret {}.\n\n",
                        choice_name(lab, s, s.best), s.prospects.size(), lab.file().worth,
-                       lab_percent(best.p_best), regret_text(lab, s, best.regret));
+                       lab_percent(best.p_best), regret_text(lab, s.best_worth, best.regret));
     if (!s.risk.regret)
       out += fmt::format(
           "It is chosen by `risk` = \"{}\" of lab.toml, not by the least expected "
@@ -347,7 +366,46 @@ std::string lab_standing_text(Lab& lab) {
                        s.decided() ? "the others alone decide" : "nothing is decided");
   if (s.ensemble.hypotheses.size() > 1)
     out += "Hypotheses: " + hypotheses_text(s.ensemble, s.p_hypothesis) + ".\n";
-  return out + members_text(s) + discrepancy_text(s) + gauge_text(lab, s);
+  out += members_text(lab, s) + "\n";
+  if (const std::string found = discrepancy_text(s); !found.empty()) out += found + "\n";
+  return out + gauge_text(lab, s);
+}
+
+std::string lab_summary_text(Lab& lab) {
+  const Standing& s = lab.standing();
+  // The newest decision, and the one that the last file found: plans keep theirs too.
+  const DecisionRecord *newest = nullptr, *before = nullptr;
+  const PlanRecord* plan = nullptr;  // that nothing was told since
+  long long files = 0;
+  for (const JournalEntry& e : lab.entries()) {
+    if (e.tell) {
+      before = newest;
+      plan = nullptr;
+      ++files;
+    }
+    if (e.plan) plan = &*e.plan;
+    if (e.decision) newest = &*e.decision;
+  }
+  std::string out = "Nothing is to be decided";
+  if (s.decided()) {
+    const std::string& name = choice_name(lab, s, s.best);
+    out = fmt::format("{} is the best with probability {}", name,
+                      lab_percent(s.prospects[s.best].p_best));
+    if (before && !before->best.empty())
+      out += fmt::format(" (before {}{})", before->best == name ? "" : before->best + " with ",
+                         lab_percent(before->p_best));
+    out += ", expected regret " + regret_text(lab, s.best_worth, s.prospects[s.best].regret);
+  }
+  out += files == 0 ? "."
+                    : fmt::format("; {} of {} told.",
+                                  counted(static_cast<long long>(lab.readings().size()), "reading"),
+                                  counted(files, "file"));
+  std::vector<std::string> more{discrepancy_text(s)};
+  if (s.effective_members < kFewMembers) more.push_back(members_text(lab, s));
+  if (s.decided()) more.push_back(limits_text(lab, s));
+  if (plan) more.push_back(stop_reason_text(lab, *plan));
+  for (const std::string& sentence : more) out += (sentence.empty() ? "" : " ") + sentence;
+  return out;
 }
 
 std::string lab_plan_reason(Lab& lab, const PlanRecord& plan) {

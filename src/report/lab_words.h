@@ -18,6 +18,8 @@ double worth_sign(const LabFile& file, const Standing& standing);
 // Which design, how surely, how much it is better; what the hypotheses weigh; what no member
 // explains; how many readings, and whether a new fit is due.
 std::string lab_standing_text(Lab& lab);
+// The same in a few sentences, with what it was before the last table: a page's line.
+std::string lab_summary_text(Lab& lab);
 // Why these experiments and no others.
 std::string lab_plan_reason(Lab& lab, const PlanRecord& plan);
 // The batch as a table, why, what each outcome would change, what it takes, when to stop.

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/folder.h"
+#include "base/text.h"
 #include "report/json.h"
 #include "report/recommendation.h"
 #include "report/run_numbers.h"
@@ -95,6 +98,23 @@ Json built_limits_json(const std::vector<LimitValue>& limits) {
     out[i]["asked"] = asked_limit(limits[i].limit, limit_text(limits[i].limit));
   }
   return out;
+}
+
+std::string none_keeps_text(const std::string& path) {
+  if (!std::filesystem::is_directory(path)) return {};
+  const Folder folder(path);
+  if (!folder.has("run.json")) return {};
+  const Json run = Json::parse(folder.read("run.json"), nullptr, false);
+  if (!run.is_object() || !run.contains("limits") || run.value("feasible", Json()) != false)
+    return {};
+  std::vector<std::string> broken;
+  for (const Json& limit : run["limits"]) {
+    if (limit.value("kept", Json()) == false)
+      broken.push_back(fmt::format("{} {} (it has {})", limit.value("name", "a limit"),
+                                   limit.value("asked", ""), limit.value("text", "")));
+  }
+  return fmt::format("{}: build none of these: no design of the run keeps every limit{}", path,
+                     broken.empty() ? "" : "; what it shows breaks " + join_names(broken));
 }
 
 }  // namespace papilla::report

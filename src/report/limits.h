@@ -25,4 +25,8 @@ nlohmann::ordered_json limits_json(const std::vector<LimitValue>& limits);
 // The same of what is built, with it: for the page.
 nlohmann::ordered_json built_limits_json(const std::vector<LimitValue>& limits);
 
+// Of the folder of a run in which no design keeps every limit: that, and which limits break what it
+// shows as the best. "" of any other folder.
+std::string none_keeps_text(const std::string& run);
+
 }  // namespace papilla::report

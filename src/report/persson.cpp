@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -15,40 +16,54 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// A number of the state under voltage; none (infinite) of a point that is not sound.
+double of_state(const MeanFieldPoint& p, double value) { return p.sound() ? value : kInfinity; }
+
 double ratio(const MeanFieldPoint& p) {
-  return p.area_off > 0 ? p.on.pull.area / p.area_off : kInfinity;
+  return p.area_off > 0 ? of_state(p, p.on.pull.area / p.area_off) : kInfinity;
 }
 
-// "-" where there is none: the ratio to no area, the coefficient without a load.
+// "-" where there is none: the ratio to no area, the coefficient without a load, what is of no
+// state.
 std::string or_none(double value, int digits) {
   return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "-";
 }
 
-double coefficient(const MeanFieldPoint& p) { return p.load > 0 ? p.on.coefficient : kInfinity; }
+double coefficient(const MeanFieldPoint& p) {
+  return p.load > 0 ? of_state(p, p.on.coefficient) : kInfinity;
+}
 
 // The gaps stay as they are at the pressure below which the body is finite.
 bool held(const MeanFieldPoint& p, const MeanFieldCase& c) {
-  return p.on.pull.pressure < c.touch.finite_size_pressure;
+  return p.sound() && p.on.pull.pressure < c.touch.finite_size_pressure;
 }
 
 Json point_json(const MeanFieldPoint& p, const MeanFieldCase& c) {
+  const auto state = [&](double value) { return json_number(of_state(p, value)); };
   Json out{{"voltage", p.voltage},
            {"load", p.load},
            {"frequency", p.frequency},
            {"equivalent_thickness", json_number(std::abs(p.thickness))},
            {"collapsed", p.on.pull.status == PullStatus::Collapsed},
-           {"pressure", p.on.pull.pressure},
-           {"pull", p.on.pull.pull},
+           {"dielectric_margin", json_number(p.dielectric_margin)},
+           {"breaks_down", p.breaks_down()},
+           {"pressure", state(p.on.pull.pressure)},
+           {"pull", state(p.on.pull.pull)},
            {"area_off", p.area_off},
-           {"area_on", p.on.pull.area},
+           {"area_on", state(p.on.pull.area)},
            {"area_ratio", json_number(ratio(p))},
-           {"mean_gap", p.on.pull.mean_gap},
+           {"mean_gap", state(p.on.pull.mean_gap)},
            {"gap_held", held(p, c)},
-           {"friction", p.on.friction},
+           {"friction", state(p.on.friction)},
            {"coefficient", json_number(coefficient(p))},
-           {"capacitance", p.capacitance}};
+           {"capacitance", state(p.capacitance)}};
   if (c.skin.hardness > 0) out["yielded"] = p.yielded;
   return out;
+}
+
+// Why a point has no numbers under its voltage.
+const char* trouble(const MeanFieldPoint& p) {
+  return p.breaks_down() ? "breaks down" : "pulled in";
 }
 
 std::string table(const std::vector<MeanFieldPoint>& points, const char* name,
@@ -57,14 +72,15 @@ std::string table(const std::vector<MeanFieldPoint>& points, const char* name,
       fmt::format("\nover {}\n{:>8} {:>8} {:>10} {:>11} {:>11} {:>9} {:>9} {:>10} {:>7}\n", name,
                   "V", "N", "Hz", "pull Pa", "A/A0", "on/off", "gap um", "friction N", "mu");
   for (const MeanFieldPoint& p : points) {
+    const auto state = [&](double value, int digits) {
+      return or_none(of_state(p, value), digits);
+    };
     out += fmt::format(
-        "{:>8.4g} {:>8.4g} {:>10.5g} {:>11.5g} {:>11.5g} {:>9} {:>9.4g} {:>10.4g} "
-        "{:>7}{}{}{}\n",
-        p.voltage, p.load, p.frequency, p.on.pull.pull, p.on.pull.area, or_none(ratio(p), 5),
-        1e6 * p.on.pull.mean_gap, p.on.friction, or_none(coefficient(p), 4),
-        held(p, c) ? "  gap held" : "",
-        p.on.pull.status == PullStatus::Collapsed ? "  pulled in" : "",
-        p.yielded ? "  yields everywhere" : "");
+        "{:>8.4g} {:>8.4g} {:>10.5g} {:>11} {:>11} {:>9} {:>9} {:>10} {:>7}{}{}{}\n", p.voltage,
+        p.load, p.frequency, state(p.on.pull.pull, 5), state(p.on.pull.area, 5),
+        or_none(ratio(p), 5), state(1e6 * p.on.pull.mean_gap, 4), state(p.on.friction, 4),
+        or_none(coefficient(p), 4), held(p, c) ? "  gap held" : "",
+        p.sound() ? "" : fmt::format("  {}", trouble(p)), p.yielded ? "  yields everywhere" : "");
   }
   return out;
 }
@@ -75,30 +91,38 @@ Json points_json(const std::vector<MeanFieldPoint>& points, const MeanFieldCase&
   return out;
 }
 
-// At the case's own point or anywhere in its sweeps.
-bool held_anywhere(const MeanFieldResult& r, const MeanFieldCase& c) {
+// At the case's own point or in its sweeps.
+bool anywhere(const MeanFieldResult& r, const std::function<bool(const MeanFieldPoint&)>& is) {
   for (const auto* points : {&r.voltage, &r.load, &r.frequency}) {
-    if (std::any_of(points->begin(), points->end(), [&](const auto& p) { return held(p, c); }))
-      return true;
+    if (std::any_of(points->begin(), points->end(), is)) return true;
   }
-  return held(r.point, c);
+  return is(r.point);
+}
+
+// The case's own point in words.
+std::string point_text(const MeanFieldPoint& p, const MeanFieldCase& c) {
+  if (!p.sound())
+    return fmt::format(
+        "contact area     off {:.5g} % of the nominal area; under {:.4g} V no number: {}\n",
+        100 * p.area_off, p.voltage, trouble(p));
+  return fmt::format(
+      "pressure         {:.5g} kPa, of it pull {:.5g} kPa\n"
+      "contact area     {:.5g} % of the nominal area; off {:.5g} %, ratio {}\n"
+      "mean gap         {:.5g} um{}\nfriction         {:.5g} N (coefficient {})\n"
+      "capacitance      {:.5g} pF\n",
+      1e-3 * p.on.pull.pressure, 1e-3 * p.on.pull.pull, 100 * p.on.pull.area, 100 * p.area_off,
+      or_none(ratio(p), 5), 1e6 * p.on.pull.mean_gap, held(p, c) ? ", held" : "", p.on.friction,
+      or_none(coefficient(p), 4), 1e12 * p.capacitance);
 }
 
 }  // namespace
 
 std::string mean_field_text(const MeanFieldCase& c, const MeanFieldResult& r, double seconds) {
   const MeanFieldPoint& p = r.point;
-  std::string out = fmt::format(
-      "{}{}roughness        rms {:.4g} um, slope {:.4g}{}\npressure         {:.5g} kPa, of it pull "
-      "{:.5g} kPa\ncontact area     {:.5g} % of the nominal area; off {:.5g} %, ratio {}\n"
-      "mean gap         {:.5g} um{}\nfriction         {:.5g} N (coefficient {})\n"
-      "capacitance      {:.5g} pF\n",
-      c.title, c.title.empty() ? "" : "\n", 1e6 * r.rms, r.slope,
-      c.skin.hardness > 0 ? " after plastic smoothing" : "", 1e-3 * p.on.pull.pressure,
-      1e-3 * p.on.pull.pull, 100 * p.on.pull.area, 100 * p.area_off, or_none(ratio(p), 5),
-      1e6 * p.on.pull.mean_gap, held(p, c) ? ", held" : "", p.on.friction,
-      or_none(coefficient(p), 4), 1e12 * p.capacitance);
-  if (p.on.pull.status == PullStatus::Collapsed) out += "pulled in: no equilibrium below 1 GPa\n";
+  std::string out =
+      fmt::format("{}{}roughness        rms {:.4g} um, slope {:.4g}{}\n{}", c.title,
+                  c.title.empty() ? "" : "\n", 1e6 * r.rms, r.slope,
+                  c.skin.hardness > 0 ? " after plastic smoothing" : "", point_text(p, c));
   if (p.yielded) {
     out += fmt::format(
         "yields everywhere: the pressure is beyond the hardness, {:.5g} kPa, the numbers under "
@@ -108,7 +132,13 @@ std::string mean_field_text(const MeanFieldCase& c, const MeanFieldResult& r, do
   if (!r.voltage.empty()) out += table(r.voltage, "voltage", c);
   if (!r.load.empty()) out += table(r.load, "load", c);
   if (!r.frequency.empty()) out += table(r.frequency, "frequency", c);
-  if (held_anywhere(r, c)) {
+  if (anywhere(r, [](const auto& at) { return !at.sound() && !at.breaks_down(); }))
+    out += "pulled in: no equilibrium below 1 GPa, so no number under the voltage\n";
+  if (anywhere(r, [](const auto& at) { return at.breaks_down(); }))
+    out +=
+        "breaks down: where the skin touches it, the dielectric has more than its strength "
+        "(interface.dielectric), so no number under the voltage\n";
+  if (anywhere(r, [&](const auto& at) { return held(at, c); })) {
     out += fmt::format(
         "gap held: limited by the finite body; below {:.4g} kPa (touch.finite_size_pressure) the "
         "gaps stay as they are there\n",
@@ -135,9 +165,12 @@ std::string mean_field_grid_csv(const std::vector<MeanFieldPoint>& grid) {
   std::string out = "voltage,load,pull,area,area_off,mean_gap,friction,coefficient\n";
   for (const MeanFieldPoint& p : grid) {
     const PullState& pull = p.on.pull;
-    out += fmt::format("{:g},{:g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", p.voltage, p.load,
-                       pull.pull, pull.area, p.area_off, pull.mean_gap, p.on.friction,
-                       p.load > 0 ? fmt::format("{:.6g}", p.on.coefficient) : "");
+    const auto cell = [&](double value) {  // empty where there is no number
+      return std::isfinite(of_state(p, value)) ? fmt::format("{:.6g}", value) : std::string();
+    };
+    out += fmt::format("{:g},{:g},{},{},{:.6g},{},{},{}\n", p.voltage, p.load, cell(pull.pull),
+                       cell(pull.area), p.area_off, cell(pull.mean_gap), cell(p.on.friction),
+                       cell(coefficient(p)));
   }
   return out;
 }

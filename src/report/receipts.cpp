@@ -96,7 +96,7 @@ Receipts receipts_of(const ResultFiles& f, const Json& run, const std::string& s
   collected.text("summary.md", summary);
   const Folder folder(f.folder);
   const bool finish = f.result.end == SearchEnd::Asked;
-  Receipts out{PAPILLA_VERSION, f.pick, finish, "", collected.take()};
+  Receipts out{PAPILLA_VERSION, f.pick, finish, "", f.study.name, collected.take()};
   if (folder.has("resolved.toml")) out.study = sha256(folder.read("resolved.toml"));
   const AskedQuestions asked(f.problem, folder);
   for (Receipt& r : out.list) r.inputs = sha256(asked.of(r.number.rests_on));
@@ -120,13 +120,10 @@ std::string receipts_text(const Receipts& receipts) {
     one["inputs"] = r.inputs;
     rows.push_back(std::move(one));
   }
-  const Json out{{"schema", 1},
-                 {"version", receipts.version},
-                 {"command", "papilla verify ."},
-                 {"pick", receipts.pick},
-                 {"finish", receipts.finish},
-                 {"resolved.toml", receipts.study},
-                 {"receipts", std::move(rows)}};
+  const Json out{
+      {"schema", 1},           {"version", receipts.version}, {"command", "papilla verify ."},
+      {"pick", receipts.pick}, {"finish", receipts.finish},   {"resolved.toml", receipts.study},
+      {"name", receipts.name}, {"receipts", std::move(rows)}};
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -137,6 +134,7 @@ Receipts read_receipts(const std::string& text, const std::string& file) {
                  text_of(j.at("pick")),
                  j.at("finish").get<bool>(),
                  text_of(j.at("resolved.toml")),
+                 j.contains("name") ? text_of(j.at("name")) : "",
                  {}};
     for (const Json& one : j.at("receipts")) out.list.push_back(receipt_of(one));
     return out;

@@ -25,6 +25,8 @@ struct Receipts {
   std::string version, pick;  // of the program; the rule that chose the best design
   bool finish = false;        // the search was ended by request (--finish)
   std::string study;          // SHA-256 of resolved.toml
+  // That the run called its study: resolved.toml does not know it; "": not kept.
+  std::string name;
   std::vector<Receipt> list;
 };
 

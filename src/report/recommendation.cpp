@@ -16,6 +16,7 @@
 #include "report/grounds.h"
 #include "report/limits.h"
 #include "report/run_numbers.h"
+#include "report/sheet.h"
 #include "report/surface_changes.h"
 #include "report/textures.h"
 #include "report/unstable.h"
@@ -69,10 +70,25 @@ std::string unstable_recommended(const ResultFiles& f) {
   return place ? unstable_text(f, *place) : std::string();
 }
 
-// What rounding would break, where it is not on the grid for that.
+// Which numbers are not on the grid of the fab, and why.
 std::string rounding_text(const ResultFiles& f) {
-  if (!f.result.build || f.result.build->on_grid) return {};
-  const FinalDesign& nearest = f.result.build->nearest.value();
+  if (!f.result.build) return {};
+  if (f.result.build->on_grid) {
+    std::vector<std::string> off;
+    for (const std::string& path : off_the_grid(f)) off.push_back(plain_name(path));
+    return off.empty()
+               ? ""
+               : fmt::format(
+                     " Its {} {} off the grid of the fab ({}), which has no value within low and "
+                     "high of the study: widen these, or use a finer `search.rounding`.",
+                     join_names(off, " and "), off.size() == 1 ? "is" : "are", fab_grid_text(f));
+  }
+  if (!f.result.build->nearest)
+    return fmt::format(
+        " Its numbers are as searched, off the grid of the fab ({}): no design of that grid near "
+        "it keeps the limits of its shape, film and look; use a finer `search.rounding`.",
+        fab_grid_text(f));
+  const FinalDesign& nearest = *f.result.build->nearest;
   std::vector<std::string> broken;
   if (nearest.confirmed.ok)
     broken = broken_texts(f.problem.constraints().values(nearest.design, nearest.confirmed));
@@ -94,29 +110,87 @@ std::string no_texture(const ResultFiles& f, const std::string& of_all, bool oth
              : design_name(best.folder) + ", the best design, has no texture";
 }
 
+// The finish and the drive as searched, where the grid of the fab moves them: "contact angle of
+// water 73.27 deg"; "" where they are built so.
+std::string finish_before_rounding(const ResultFiles& f) {
+  const std::vector<double> searched = f.problem.space().value(best_of(f).unit),
+                            built = f.problem.space().value(f.result.build->made.unit);
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < searched.size(); ++k) {
+    const Variable& v = f.study.variables[k];
+    const bool moved = std::abs(built[k] - searched[k]) > kLimitTolerance * std::abs(searched[k]);
+    if (!moved || v.path.starts_with("texture.")) continue;
+    out.push_back(
+        plain_name(v.path) + " " +
+        stated(bare_number(v.path + " as searched", searched[k] / find_unit(v.unit)->to_si, v.unit,
+                           kChosen, {Stage::Confirm}),
+               in_unit(searched[k], v.unit, 4)));
+  }
+  return join_names(out);
+}
+
+// What the built design has more or less than another surface; of numbers that the grid of the fab
+// takes the gain from, what there was before.
+std::string built_changes(const ResultFiles& f, const char* design, const std::string& other,
+                          const Score& searched, const Score& than) {
+  const auto rounded = worth_on_grid(f.problem, f.result);
+  const std::string before = score_changes(f, {design, other}, searched, than);
+  if (!rounded) return before;
+  const std::string now = score_changes(f, {"what is built", other}, *rounded, than);
+  return !now.empty() || before.empty()
+             ? now
+             : "changes no objective by more than the error of the difference on the grid of the "
+               "fab, where before rounding it " +
+                   before;
+}
+
+// The shape in the sentence is that on the grid of the fab, with the numbers of the search.
+std::string not_judged_on_grid(const ResultFiles& f) {
+  const bool unjudged = f.result.build && !f.result.build->made.confirmed.ok;
+  return unjudged ? " These are its numbers before rounding to the grid of the fab: so rounded it "
+                    "was not judged."
+                  : "";
+}
+
 std::string worth_building(const ResultFiles& f) {
   const OptimiseResult& r = f.result;
   const FinalDesign& best = best_of(f);
+  const auto rounded = worth_on_grid(f.problem, r);
+  // The surface without texture has the finish of the search: what the texture does is of that.
+  const std::string before = rounded ? finish_before_rounding(f) : "";
   std::vector<std::string> clauses;
   if (f.problem.judged_at_amplitude()) {
-    const std::string over_belief = worst_over_belief(f);
-    clauses.push_back(fmt::format(
-        "Its worst modulation, (F_on - F_off)/F_off, over fingers and humidity is {}{}{}.",
-        worst_text("what is recommended", best.confirmed.worst),
-        over_belief.empty() ? "" : " as fitted and " + over_belief,
-        r.flat ? fmt::format("; without texture it is {}{}",
-                             worst_text("the same surface without texture", r.flat->worst),
-                             over_belief.empty() ? "" : " as fitted")
-               : ""));
+    const std::string over_belief = worst_over_belief(f),
+                      searched =
+                          worst_text("what is recommended, as searched", best.confirmed.worst),
+                      flat = r.flat ? worst_text("the same surface without texture", r.flat->worst)
+                                    : "",
+                      fitted = over_belief.empty() ? "" : " as fitted";
+    std::string said = "Its worst modulation, (F_on - F_off)/F_off, over fingers and humidity is " +
+                       worst_text(scored_name(f), built_score(f).worst) + fitted;
+    // Belief is judged of designs as they were searched.
+    if (rounded && (!over_belief.empty() || !before.empty()))
+      said += fmt::format("; before rounding{} it is {}{}",
+                          before.empty() ? "" : ", with " + before + ",", searched, fitted);
+    if (!over_belief.empty()) said += " and " + over_belief;
+    if (r.flat)
+      said += fmt::format("; without texture{} it is {}{}",
+                          before.empty() ? "" : ", before rounding too,", flat, fitted);
+    clauses.push_back(said + ".");
   }
   if (r.flat) {
     if (const auto broken = broken_texts(broken_without_texture(f.problem, r)); !broken.empty())
       clauses.push_back(fmt::format("Without its texture the same surface breaks a limit: {}.",
                                     join_names(broken)));
-    if (const std::string same = score_changes(f, {"the best", "the same surface without texture"},
-                                               best.confirmed, *r.flat);
-        !same.empty())
-      clauses.push_back("Its texture " + same + ".");
+    const std::string other = "the same surface without texture",
+                      same = before.empty()
+                                 ? built_changes(f, "the best", other, best.confirmed, *r.flat)
+                                 : score_changes(f, {"the best", other}, best.confirmed, *r.flat);
+    if (!same.empty())
+      clauses.push_back(fmt::format(
+          "{} {}.",
+          before.empty() ? "Its texture" : "Before rounding, with " + before + ", its texture",
+          same));
   } else {
     clauses.push_back("The same surface without texture has no number to compare with (" +
                       r.flat_unanswered->reason + ").");
@@ -126,8 +200,7 @@ std::string worth_building(const ResultFiles& f) {
   if (flat &&
       surface_text(f, of_flat, r.finalists[*flat].unit) != surface_text(f, of_flat, best.unit)) {
     const FinalDesign& other = r.finalists[*flat];
-    const std::string both =
-        score_changes(f, {"the best", of_flat}, best.confirmed, other.confirmed);
+    const std::string both = built_changes(f, "the best", of_flat, best.confirmed, other.confirmed);
     const std::string surface = surface_text(f, of_flat, other.unit);
     clauses.push_back(fmt::format(
         "Against the best flat surface of this run, {}{}, it {}.", design_name(other.folder),
@@ -135,8 +208,9 @@ std::string worth_building(const ResultFiles& f) {
         both.empty() ? "is no better and no worse than the error of the difference" : both));
   }
   const std::string finish = finish_text(f);
-  return fmt::format("Build {} ({}){}. {}", design_name(best.folder), shape_text(built_design(f)),
-                     finish.empty() ? "" : " with " + finish, join_names(clauses, " "));
+  return fmt::format("Build {} ({}){}. {}{}", design_name(best.folder), shape_text(built_design(f)),
+                     finish.empty() ? "" : " with " + finish, join_names(clauses, " "),
+                     not_judged_on_grid(f));
 }
 
 std::string leave_flat(const ResultFiles& f) {
@@ -160,7 +234,7 @@ std::string change_finish(const ResultFiles& f) {
         rounding_text(f), unstable_recommended(f));
   }
   std::vector<std::string> does;
-  if (std::string both = score_changes(f, {"the finish of the best", "that of the study"},
+  if (std::string both = built_changes(f, "the finish of the best", "that of the study",
                                        r.flat ? *r.flat : best_of(f).confirmed, *r.flat_before);
       !both.empty())
     does.push_back("that " + both);
@@ -168,8 +242,9 @@ std::string change_finish(const ResultFiles& f) {
       !broken.empty())
     does.push_back("the study's own surface breaks a limit (" + join_names(broken) + ")");
   does.push_back(none);
-  return fmt::format("Leave it flat and change the finish ({}): {}.{}{}{}", finish_text(f),
-                     join_names(does, "; "), others, rounding_text(f), unstable_recommended(f));
+  return fmt::format("Leave it flat and change the finish ({}): {}.{}{}{}{}", finish_text(f),
+                     join_names(does, "; "), not_judged_on_grid(f), others, rounding_text(f),
+                     unstable_recommended(f));
 }
 
 }  // namespace
@@ -241,6 +316,15 @@ std::string shape_text(const Design& design) {
   return measures.empty() ? out : out + ", walls " + measures.front();
 }
 
+Score built_score(const ResultFiles& f) {
+  const auto rounded = worth_on_grid(f.problem, f.result);
+  return rounded ? *rounded : recommended_of(f).confirmed;
+}
+
+std::string scored_name(const ResultFiles& f) {
+  return worth_on_grid(f.problem, f.result) ? "what is built" : "what is recommended";
+}
+
 Design built_design(const ResultFiles& f) {
   return f.result.build ? f.result.build->made.design : recommended_of(f).design;
 }
@@ -276,7 +360,8 @@ std::string recommendation(const ResultFiles& f) {
           "Whether a texture is worth building is not known: the surface without it {}. What "
           "follows is of {}, the best of the front.{}",
           without_number(f, best_of(f).unit, f.result.flat_unanswered),
-          design_name(best_of(f).folder), unsure_limits_text(f) + unstable_recommended(f));
+          design_name(best_of(f).folder),
+          unsure_limits_text(f) + rounding_text(f) + unstable_recommended(f));
     case Advice::LeaveFlat:
       return leave_flat(f);
     case Advice::Finish:

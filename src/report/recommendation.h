@@ -18,6 +18,11 @@ std::string recommendation(const ResultFiles& files);
 FinalDesign recommended_of(const ResultFiles& files);
 // That design on the grid of the fab: values as the sheet has them, in every digit.
 Design built_design(const ResultFiles& files);
+// What that is worth, as it was judged; as it was searched where it was not judged on the grid.
+Score built_score(const ResultFiles& files);
+// What a number of built_score is of, in the words of a claim: "what is built", or "what is
+// recommended" where it is as searched.
+std::string scored_name(const ResultFiles& files);
 // Where the design that it is about is among the finalists: a surface without texture may be none
 // of them.
 std::optional<std::size_t> recommended_place(const ResultFiles& files);

@@ -244,7 +244,11 @@ std::vector<Part> calibration_reference() {
           "F_on_sd_N, state (clean, natural, wet; empty: the design's); forces of the whole finger "
           "[N], "
           "sd: one standard deviation"),
-      key("fit", "published claims that are fitted, e.g. [\"M1\", \"C_gap\"]; this or `data`"),
+      key("data_finger",
+          "whose rows of the table are taken, by its column finger; needed where it has several"),
+      key("fit",
+          "what is fitted, e.g. [\"M1\", \"C_gap\"]: published claims, and of numbers that are no "
+          "claim C_gap and friction; this or `data`"),
       key("hold_out", "claims that are judged with the fitted finger alone"),
       key("iterations",
           fmt::format("of the fit; 0 leaves the finger as it is; {}", standard.iterations)),

@@ -94,7 +94,8 @@ Json plan_json(const Plan& plan) {
 Json voltage_json(const VoltageAnswer& v) {
   return {{"modulation", v.target},
           {"amplitude", v.reached() ? measured(v.amplitude) : Json(nullptr)},
-          {"highest_modulation", json_number(v.modulation)},
+          // Reached, the modulation at the amplitude is the target, and may be higher beyond.
+          {"highest_modulation", v.reached() ? Json(nullptr) : json_number(v.modulation)},
           {"limit", json_number(v.limit)},
           {"evaluations", v.evaluations},
           {"status", v.reached() ? "ok" : text(v)}};

@@ -18,6 +18,7 @@
 #include "report/recommendation.h"
 #include "report/response.h"
 #include "report/run_json.h"
+#include "report/run_numbers.h"
 #include "report/summary.h"
 #include "report/sums.h"
 #include "report/unstable.h"
@@ -135,7 +136,10 @@ class Writer {
       for (std::size_t k = 0; k < objectives.size(); ++k) {
         out += c.ok ? fmt::format(",{:.6g},{:.3g}", c.values[k], c.errors[k]) : std::string(",,");
         const auto parameters = parameter_error(c, k);
-        out += parameters ? fmt::format(",{:.3g}", *parameters) : std::string(",");
+        // That of a look that no parameter moves is its last bits.
+        out += parameters
+                   ? fmt::format(",{:.3g}", scatters(c.values[k], *parameters) ? *parameters : 0.0)
+                   : std::string(",");
         out += k < searched.values.size() ? fmt::format(",{:.6g}", searched.values[k])
                                           : std::string(",");
       }

@@ -244,7 +244,7 @@ Json run_json(const ResultFiles& f) {
     out["build"] = {{"judged", r.build->made.confirmed.ok},
                     {"keeps_every_limit", r.build->made.feasible},
                     {"widened", r.build->widened},
-                    {"on_grid", r.build->on_grid},
+                    {"on_grid", r.build->on_grid && off_the_grid(f).empty()},
                     {"designs_judged", r.build->judged},
                     {"objectives", values_json(f, "what is built", r.build->made.confirmed)},
                     {"nearest", nearest_json(f, *r.build)},

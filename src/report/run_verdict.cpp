@@ -163,7 +163,9 @@ RecomputedRun::RecomputedRun(const std::string& folder, const RunChecking& how)
                     "write it anew (`papilla optimize {} --out NEW`)",
                     source.path(kReceiptsName), receipts.version, PAPILLA_VERSION,
                     source.path("resolved.toml")));
-  const Study study = read_study(source.file("resolved.toml"));
+  Study study = read_study(source.file("resolved.toml"));
+  // The folder of results has any name, and the study was called as its own file or folder.
+  if (!receipts.name.empty()) study.name = receipts.name;
   const StudyProblem problem(study);
   AskingAgain again{
       stages_of(receipts, how.receipts), how.seconds, how.jobs, {}, how.progress, how.stop};

@@ -22,7 +22,7 @@ bool promises_receipts(const std::string& folder);
 
 struct RunChecking {
   std::vector<std::string> receipts;                  // their ids; empty: all
-  double seconds = 600;                               // for the answers; 0: no limit
+  double seconds = 600;                               // for the answers, AskingAgain::seconds
   int jobs = 0;                                       // 0: all processors
   std::function<void(int done, int total)> progress;  // may be empty
   const std::atomic<bool>* stop = nullptr;

@@ -24,6 +24,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// In the unit that it has few digits in: 25 um, not 25000 nm.
+std::string asked_length(const char* words, double si) {
+  const std::string unit = si < 1e-6 ? "nm" : si < 1e-3 ? "um" : "mm";
+  return stated(bare_number(words, si / find_unit(unit)->to_si, unit, kAsked, {}),
+                in_unit(si, unit, 4));
+}
+
 Json drift_json(const std::optional<Drift>& drift, double unit) {
   return drift && drift->judged() ? Json(drift->most / unit) : Json();
 }
@@ -123,11 +130,24 @@ Json row_json(const SheetRow& row) {
   return out;
 }
 
-// Lengths that are built and lie on no value of the grid of the fab.
+std::string tolerance_end_text(const ResultFiles& f) {
+  const std::vector<StudyObjective>& all = f.problem.objectives();
+  const bool aimed =
+      std::any_of(all.begin(), all.end(), [](const StudyObjective& o) { return o.aimed; });
+  return fmt::format(
+      "an objective worsens by 5 %{} or a limit is reached",
+      aimed ? " (a distance: by 5 % of its target, or of itself if that is more)" : "");
+}
+
+std::string fab_grid_text(const ResultFiles& f) {
+  return asked_length("grid of the fab", f.study.search.rounding);
+}
+
 std::vector<std::string> off_the_grid(const ResultFiles& f) {
   std::vector<std::string> out;
   // The study's own surface may lie beside the space, and is then as the file has it.
-  if (f.result.build && f.result.build->made.unit.empty()) return out;
+  const bool as_in_file = f.result.build && f.result.build->made.unit.empty();
+  if (as_in_file || !(f.study.search.rounding > 0)) return out;
   for (const SheetRow& row : sheet_rows(f)) {
     const auto found = std::find_if(f.study.variables.begin(), f.study.variables.end(),
                                     [&](const Variable& v) { return v.path == row.path; });
@@ -143,16 +163,13 @@ std::string grid_text(const ResultFiles& f) {
   if (!f.result.build || !(f.study.search.rounding > 0)) return {};
   const BuiltDesign& build = *f.result.build;
   const FinalDesign searched = recommended_of(f);
-  const double grid = f.study.search.rounding;
-  const auto length = [](const char* words, double value) {
-    return stated(bare_number(words, 1e9 * value, "nm", kAsked, {}), format_quantity(value, "nm"));
-  };
-  std::string out = fmt::format(
-      " Lengths of {} and more are on a grid of {} (`search.rounding`), shorter ones on a finer "
-      "one (`best/build.toml`)",
-      length("least length on the grid of the fab", finer_grid_below(grid)),
-      length("grid of the fab", grid));
   if (!build.on_grid) return {};
+  std::string out = fmt::format(
+      " Periods and widths that were searched are on a grid of {} (`search.rounding`), and so are "
+      "other lengths of {} and more; shorter ones are on a finer one (`best/build.toml`)",
+      fab_grid_text(f),
+      asked_length("least length on the grid of the fab",
+                   finer_grid_below(f.study.search.rounding)));
   if (const std::vector<std::string> off = off_the_grid(f); !off.empty())
     out += fmt::format("; the range of {} has no value of it", join_names(off, " and of "));
   if (build.widened) out += "; nearer values of the grid break a limit";
@@ -191,10 +208,9 @@ std::string sheet_text(const ResultFiles& f) {
       const Json text = row_json(row)["text"];
       out += markdown_row({row.path, text["build"], text["down"], text["up"]});
     }
-    out +=
-        "\nTolerance: how far it may be off before an objective worsens by 5 % or a limit is "
-        "reached, one dimension at a time." +
-        grid_text(f) + "\n";
+    out += fmt::format("\nTolerance: how far it may be off before {}, one dimension at a time.",
+                       tolerance_end_text(f)) +
+           grid_text(f) + "\n";
   }
   out += limits_table(built_limits(f));
   if (const std::string yield = yield_text(f); !yield.empty()) out += "\n" + yield + "\n";

@@ -26,6 +26,13 @@ std::vector<SheetRow> sheet_rows(const ResultFiles& files);
 nlohmann::ordered_json row_json(const SheetRow& row);
 // How far a number may be off, for people: "12 nm", "9.6 nm, then min_wall is reached".
 std::string drift_text(const Drift& drift, const std::string& unit);
+// "an objective worsens by 5 % or a limit is reached": what ends a tolerance. Eq. search.9
+std::string tolerance_end_text(const ResultFiles& files);
+// The searched numbers of what is built that lie off the grid of the fab, as their ranges have no
+// value of it: by their paths.
+std::vector<std::string> off_the_grid(const ResultFiles& files);
+// "500 nm": that grid.
+std::string fab_grid_text(const ResultFiles& files);
 // Which grid the numbers are on, and what that did; "" where there is none.
 std::string grid_text(const ResultFiles& files);
 

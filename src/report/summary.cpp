@@ -163,8 +163,8 @@ std::string sensitivity_text(const ResultFiles& f) {
       level_of_checks(f) +
       "). Share: of the objective's variance "
       "if every "
-      "variable scattered so. Tolerance: how far it may be off before an objective worsens by 5 % "
-      "or a limit is reached.\n\n| variable | step";
+      "variable scattered so. Tolerance: how far it may be off before " +
+      tolerance_end_text(f) + ".\n\n| variable | step";
   for (const StudyObjective& o : objectives) out += fmt::format(" | {}, share", heading(o));
   out += " | tolerance down | up |\n|---|---";
   for (std::size_t k = 0; k < objectives.size(); ++k) out += "|---";

@@ -99,11 +99,11 @@ std::string spectrum_table(const SurfaceView& view) {
 Json scan_json(const std::string& file, const ScanChanges& c) {
   Json where;
   if (c.replaced > 0) where = {{"x", {c.where.x0, c.where.x1}}, {"y", {c.where.y0, c.where.y1}}};
-  return {{"file", file},           {"as_is", c.as_is},   {"repeats", c.repeats},
-          {"made", c.made},         {"tilt", c.tilt()},   {"slope", {c.slope_x, c.slope_y}},
-          {"rise", c.rise},         {"pixels", c.pixels}, {"replaced", c.replaced},
-          {"furthest", c.furthest}, {"where", where},     {"filled", c.filled},
-          {"highest", c.highest},   {"rms", c.rms}};
+  return {{"file", file},           {"as_is", c.as_is},     {"repeats", c.repeats},
+          {"made", c.made},         {"tilt", c.tilt()},     {"slope", {c.slope_x, c.slope_y}},
+          {"rise", c.rise},         {"pixels", c.pixels},   {"replaced", c.replaced},
+          {"furthest", c.furthest}, {"where", where},       {"filled", c.filled},
+          {"marked", c.marked},     {"highest", c.highest}, {"rms", c.rms}};
 }
 
 Json areal_json(const ArealParameters& a) {

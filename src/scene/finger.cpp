@@ -377,9 +377,10 @@ void fields(FieldVisitor& v, Finger& s) {
   v.section({"natural", "what sebum and sweat change: state = \"natural\""}, s.natural);
   v.section({"wet", "what a film of water changes: state = \"wet\""}, s.wet);
   v.section({"saturation", "electrowetting saturation law"}, s.saturation);
-  v.text(
-      {"fitted_to", "published claims (papilla reproduce) that the fit used, separated by spaces"},
-      s.fitted_to);
+  v.text({"fitted_to",
+          "what the fit used, separated by spaces: published claims (papilla reproduce), and of "
+          "numbers that are no claim C_gap and friction (papilla reproduce --figures)"},
+         s.fitted_to);
   v.list({"uncertainty",
           "of fitted numbers: parameter, deviation, correlation (evaluate --parameters)"},
          s.uncertainty);

@@ -327,4 +327,12 @@ MeasuredTable read_measured_table(std::string_view text, const std::string& file
   return TableReader(text, file).read();
 }
 
+std::string frequency_problem(const Drive& drive, double frequency) {
+  if (frequency > 0 || drive.waveform == Waveform::Dc || drive.frequency <= 0) return "";
+  return fmt::format(
+      "0 Hz is a constant voltage, and the design is driven at {}: give the frequency of the "
+      "drive, or set drive.waveform = \"dc\" in the design",
+      format_quantity(drive.frequency, "Hz"));
+}
+
 }  // namespace papilla::scene

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/rooms.h"
+#include "scene/environment.h"
 #include "scene/finger.h"
 
 namespace papilla::scene {
@@ -41,5 +42,9 @@ struct MeasuredTable {
 // that is none or lies outside of what a finger does, a friction beyond ten times the load, F_on
 // below F_off on average by more than touches scatter, a line that is cut off.
 MeasuredTable read_measured_table(std::string_view text, const std::string& file);
+
+// What is wrong with a frequency [Hz] that was measured under the voltage of a drive: 0 is a
+// constant voltage, and a design that is driven by a wave has another friction. "": nothing.
+std::string frequency_problem(const Drive& drive, double frequency);
 
 }  // namespace papilla::scene

@@ -103,7 +103,7 @@ class Building {
 
   BuiltDesign find() {
     std::vector<FinalDesign> grid = candidates();
-    if (grid.empty()) return {recommended_, false};
+    if (grid.empty()) return {recommended_, widened_, false};  // none keeps the limits of its shape
     BuiltDesign out{grid.front(), widened_};
     // What breaks a limit as it was searched cannot be held to it.
     if (!recommended_.feasible) {
@@ -111,19 +111,24 @@ class Building {
       return out;
     }
     std::optional<FinalDesign> best;
+    bool stopped = false;
     for (const FinalDesign& next : in_order(std::move(grid))) {
       const std::size_t wanted = best ? kJudgedOnGrid : kMostJudgedOnGrid;
       if (judged_ >= wanted) break;
-      if (!keeps_before_evaluation(next.design, true)) continue;
+      if (!keeps_before_evaluation(next.design, true)) {
+        out.widened = out.widened || judged_ == 0;
+        continue;
+      }
+      if (judged_ == 0) out.made = next;  // what is built where there is no time to judge any
       FinalDesign made = next;
-      if (!judge(made)) break;
+      if (stopped = !judge(made); stopped) break;
       note_film(made);
       if (judged_ == 1) out.nearest = made;
       if (made.feasible && (!best || worth(made) > worth(*best))) best = std::move(made);
     }
     out.judged = judged_;
-    if (judged_ == 0) return out;  // there was no time for it
-    out.widened = out.widened || !out.nearest->feasible;
+    if (judged_ == 0 && stopped) return out;  // there was no time for it
+    out.widened = out.widened || !out.nearest || !out.nearest->feasible;
     out.on_grid = best.has_value();
     out.made = best.value_or(recommended_);
     return out;

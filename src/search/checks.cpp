@@ -36,6 +36,7 @@ void check_stability(Run& run, const std::function<void(double)>& step) {
       requests.push_back({Stage::Stability, v, false, f.unit});
     designs.push_back(f.unit);
     answers.push_back(run.replay.answers(requests));
+    set_confirmed_limits(run.problem, f.answers, answers.back());
     step(run.seconds_of((on_front(run.result) - answers.size()) * variants, Stage::Stability));
   }
   run.result.stability = judge_stability(run.problem, designs, answers);

@@ -32,13 +32,8 @@ TaskAnswer moved_answer(const StudyGoals& goals, const TaskAnswer& confirmed, co
     for (std::size_t i = 0; i < number.points.size(); ++i)
       number.points[i] = moved(number.points[i], from.points[i], to.points[i], keeps);
   }
-  for (std::size_t j = 0; j < goals.limited.size(); ++j) {
-    const MetricExpression& e = goals.limited[j].expression;
-    out.limited[j] =
-        moved(out.limited[j], own.limited[j], there.limited[j], keeps_sign(e.summary, e.metric));
-  }
+  move_limits(goals, confirmed, own, there, out);
   out.worst = moved(out.worst, own.worst, there.worst, true);
-  out.oxide_margin = moved(out.oxide_margin, own.oxide_margin, there.oxide_margin, true);
   return out;
 }
 

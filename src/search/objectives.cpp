@@ -7,6 +7,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "forward/patch_result.h"
 
 namespace papilla::search {
 namespace {
@@ -104,7 +105,9 @@ void check_pen(const Study& study, const StudyObjective& o) {
 // Eq. search.9
 double tolerated_loss(const StudyObjective& o, double value) {
   constexpr double kShare = 0.05;
-  return std::hypot(kShare * value, resolution(o.expression));
+  // A distance goes to 0 at its target, where 5 % of it would be lost at once.
+  const double whole = o.aimed ? std::max(std::abs(value), std::abs(o.target)) : value;
+  return std::hypot(kShare * whole, resolution(o.expression));
 }
 
 bool StudyGoals::by_points(std::size_t objective) const {
@@ -141,6 +144,9 @@ StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks) 
     goals.looks = goals.looks || std::holds_alternative<LookMetric>(metric);
     goals.pull_in = goals.pull_in || std::holds_alternative<PullInMargin>(metric);
     goals.felt = goals.felt || std::holds_alternative<Felt>(metric);
+    const auto* quantity = std::get_if<QuantityMetric>(&metric);
+    goals.areas = goals.areas ||
+                  (quantity && forward::grid_law(quantity->quantity) == forward::GridLaw::Area);
     list.push_back(std::move(objective));
   };
   const auto wish = [&](const char* key, StudyObjective objective) {

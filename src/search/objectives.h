@@ -20,8 +20,9 @@ struct StudyObjective {
   double target = 0;   // SI
 };
 
-// What it may lose before that counts: 5 % of a value, in the user's sign or minimised, and what
-// its instruments resolve, in quadrature: of a sparkle of nothing 5 % are no loss. Eq. search.9
+// What it may lose before that counts: 5 % of a value, in the user's sign or minimised (of a
+// distance from a target: 5 % of the larger of it and the target), and what its instruments
+// resolve, in quadrature: of a sparkle of nothing 5 % are no loss. Eq. search.9
 double tolerated_loss(const StudyObjective& objective, double value);
 
 struct StudyGoals {
@@ -36,6 +37,7 @@ struct StudyGoals {
   bool pull_in = false;  // or about pull-in
   bool felt = false;     // or about who feels it, which takes the errors of the modulation
   bool pen = false;      // or about the pen, which is then evaluated beside the finger
+  bool areas = false;  // or about contact areas and what goes with them, of which pixels miss much
   // A limit is on the yield: the others are then asked of the design as drawn.
   bool yield = false;
 

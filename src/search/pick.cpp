@@ -120,6 +120,20 @@ std::vector<ObjectiveRange> decided_ranges(const nlohmann::json& run,
   return out;
 }
 
+// run: its run.json, where it has one.
+[[noreturn]] void refuse_without_front(const Folder& results, const nlohmann::json& run) {
+  const auto is_false = [&](const char* key) { return run.contains(key) && run[key] == false; };
+  if (is_false("interrupted") && is_false("feasible"))
+    throw InputError(
+        results.path() +
+        ": no design of this run keeps every limit, so there is no front to pick from" +
+        (results.has("best/design.toml") ? "; without --pick it is best/, which comes nearest"
+                                         : ""));
+  throw InputError(results.path() +
+                   " has no front/: not the folder of a finished `papilla optimize`" +
+                   unfinished_hint(results));
+}
+
 }  // namespace
 
 std::string picked_design(const Folder& results, const std::string& rule) {
@@ -154,8 +168,9 @@ std::string picked_design(const Folder& results, const std::string& rule) {
       folders.push_back(folder);
     }
     reading = "run.json";
-    if (!front.empty() && results.has("run.json")) {
+    if (results.has("run.json")) {
       const auto run = nlohmann::json::parse(results.read("run.json"));
+      if (front.empty()) refuse_without_front(results, run);
       const std::string decided = decided_design(run, rule, front[0]);
       if (std::find(folders.begin(), folders.end(), decided) != folders.end()) return decided;
       ranges = decided_ranges(run, front[0].names);
@@ -163,11 +178,7 @@ std::string picked_design(const Folder& results, const std::string& rule) {
   } catch (const nlohmann::json::exception& e) {
     throw InputError(fmt::format("{}: {} is damaged: {}", results.path(), reading, e.what()));
   }
-  if (front.empty()) {
-    throw InputError(results.path() +
-                     " has no front/: not the folder of a finished `papilla optimize`" +
-                     unfinished_hint(results));
-  }
+  if (front.empty()) refuse_without_front(results, {});
   return folders[pick_design(rule, front, ranges)];
 }
 

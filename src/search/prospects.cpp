@@ -14,10 +14,11 @@
 namespace papilla::search {
 namespace {
 
-// Of the skins, a member: p(best) over the 32 members of the shipped belief to .011.
-constexpr int kDraws = 64;
-// Of the skins, all members at once: the same p(best) to .025.
-constexpr int kSettledDraws = 400;
+// Pairs of draws of the errors, a member: p(best) over the 32 members of the shipped belief to
+// .008.
+constexpr int kPairs = 64;
+// Of all members at once: the same p(best) to .025.
+constexpr int kSettledPairs = 200;
 
 double total(const std::vector<double>& weights) {
   return std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -43,9 +44,8 @@ double worth_or_least(const MemberWorth& d, std::size_t design, std::size_t memb
   return out;
 }
 
-// Of a member at which something is known.
-void add_member(const MemberWorth& d, std::size_t member, double weight,
-                std::vector<Prospect>& out) {
+// Who is the best at a member at which something is known. Eq. search.15
+void add_best(const MemberWorth& d, std::size_t member, double weight, std::vector<Prospect>& out) {
   const double best = best_at(d, member);
   const bool any_keeps = [&] {
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -58,10 +58,15 @@ void add_member(const MemberWorth& d, std::size_t member, double weight,
   };
   double ties = 0;
   for (std::size_t i = 0; i < out.size(); ++i) ties += is_best(i);
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    if (is_best(i)) out[i].p_best += weight / ties;                                // Eq. search.15
-    out[i].regret += weight * std::max(0.0, best - worth_or_least(d, i, member));  // Eq. search.16
-  }
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].p_best += is_best(i) ? weight / ties : 0;
+}
+
+// The regret of each design there. Eq. search.16
+void add_regret(const MemberWorth& d, std::size_t member, double weight,
+                std::vector<Prospect>& out) {
+  const double best = best_at(d, member);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i].regret += weight * std::max(0.0, best - worth_or_least(d, i, member));
 }
 
 // Some members of all.
@@ -79,6 +84,7 @@ MemberWorth of_members(const MemberWorth& all, const std::vector<std::size_t>& m
     for (auto& of : design) picked(of);
   }
   for (auto& of : out.by_skin) picked(of);
+  for (auto& of : out.by_error) picked(of);
   return out;
 }
 
@@ -113,26 +119,58 @@ double freedom_of(const std::vector<std::vector<double>>& of_skins, std::size_t 
                       seen - 1 / (static_cast<double>(of_skins.size()) - 1));
 }
 
-// A standard normal number for each of by_skin, wider as few skins know their own scatter badly:
-// Student's distribution of them all together.
-std::vector<double> drawn_skins(RandomStream& random, const MemberWorth& d, std::size_t numbers) {
-  std::vector<double> out(numbers);
-  for (double& z : out) z = random.normal();
-  const std::size_t skins = d.skins.value_or(numbers);
-  if (skins < 2) return out;
-  double squares = 0;
-  for (std::size_t k = 1; k < skins; ++k) squares += square(random.normal());
-  for (double& z : out) z *= std::sqrt(static_cast<double>(skins - 1) / squares);
-  return out;
-}
+// Few skins know their own scatter badly. For probabilities a draw is wider by that, of Student's
+// distribution; expected regret is a mean, which its tails would overstate. Eq. search.15-16
+enum class Tails { Normal, Student };
 
-// The most skins behind a worth.
-std::size_t skins_of(const MemberWorth& d) {
+// What a draw takes the errors of all designs for, in the standard errors that by_skin and by_error
+// state.
+struct ErrorDraw {
+  std::vector<double> skins, errors;
+  double student = 1;  // what the skins' are wider by then
+
+  ErrorDraw mirrored() const {
+    ErrorDraw out = *this;
+    for (double& z : out.skins) z = -z;
+    for (double& z : out.errors) z = -z;
+    return out;
+  }
+};
+
+// The most numbers behind a worth, of by_skin or of by_error.
+std::size_t longest(const std::vector<std::vector<std::vector<double>>>& moves) {
   std::size_t out = 0;
-  for (const auto& design : d.by_skin) {
+  for (const auto& design : moves) {
     for (const auto& member : design) out = std::max(out, member.size());
   }
   return out;
+}
+
+// What draws of the errors of `d` are made of. A single skin tells nothing of its own scatter.
+struct ErrorCount {
+  explicit ErrorCount(const MemberWorth& d)
+      : skins(longest(d.by_skin)), errors(longest(d.by_error)) {}
+  bool none() const { return skins < 2 && errors == 0; }
+
+  std::size_t skins = 0, errors = 0;
+};
+
+ErrorDraw drawn(RandomStream& random, const ErrorCount& count) {
+  ErrorDraw out;
+  for (std::size_t k = 0; k < count.skins; ++k) out.skins.push_back(random.normal());
+  for (std::size_t k = 0; k < count.errors; ++k) out.errors.push_back(random.normal());
+  if (count.skins < 2) return out;
+  double squares = 0;
+  for (std::size_t k = 1; k < count.skins; ++k) squares += square(random.normal());
+  out.student = std::sqrt(static_cast<double>(count.skins - 1) / squares);
+  return out;
+}
+
+// A list of errors for each design and member; returns how many the longest has.
+std::size_t make_room_for_errors(MemberWorth& d) {
+  d.by_error.resize(d.worth.size());
+  for (auto& design : d.by_error) design.resize(d.weights.size());
+  return longest(d.by_error);
 }
 
 // L of L L^T = a correlation matrix, by Cholesky's method; what rules on pairs leave indefinite of
@@ -155,32 +193,46 @@ std::vector<std::vector<double>> correlation_root(
   return out;
 }
 
-// A member at a draw of the skins, one more of the members of `out`.
-void add_draw(const MemberWorth& all, std::size_t member, const std::vector<double>& z,
+// What a draw of errors moves a worth by.
+double moved_by_errors(const std::vector<std::vector<std::vector<double>>>& moves,
+                       std::size_t design, std::size_t member, const std::vector<double>& z) {
+  if (moves.empty()) return 0;
+  const std::vector<double>& of = moves[design][member];
+  return std::inner_product(of.begin(), of.end(), z.begin(), 0.0);
+}
+
+// A member at a draw of the errors, one more of the members of `out`.
+void add_draw(const MemberWorth& all, std::size_t member, const ErrorDraw& z, Tails tails,
               MemberWorth& out) {
+  const double wider = tails == Tails::Student ? z.student : 1;
   out.weights.push_back(all.weights[member]);
   out.draw_of.push_back(all.draw_of.empty() ? member : all.draw_of[member]);
   out.worth.resize(all.worth.size());
   out.kept.resize(all.kept.size());
   for (std::size_t i = 0; i < all.worth.size(); ++i) {
-    const std::vector<double>& moves = all.by_skin[i][member];
-    out.worth[i].push_back(
-        std::inner_product(moves.begin(), moves.end(), z.begin(), all.worth[i][member]));
+    out.worth[i].push_back(all.worth[i][member] +
+                           wider * moved_by_errors(all.by_skin, i, member, z.skins) +
+                           moved_by_errors(all.by_error, i, member, z.errors));
     out.kept[i].resize(all.kept[i].size());
     for (std::size_t k = 0; k < all.kept[i].size(); ++k)
       out.kept[i][k].push_back(all.kept[i][k][member]);
   }
 }
 
-// Each member as so many that share its weight, at draws of the skins. Eq. search.15
-MemberWorth over_skins(const MemberWorth& all) {
-  const std::size_t skins = skins_of(all);
-  if (skins < 2) return all;
+// Each member as so many that share its weight, at draws of the errors. A draw comes with its
+// mirror image, so that errors move no mean: where they alone would choose, the worth does.
+// Eq. search.15
+MemberWorth over_errors(const MemberWorth& all, Tails tails) {
+  const ErrorCount count(all);
+  if (count.none()) return all;
   MemberWorth out;
   RandomStream random(1, "decision");
   for (std::size_t m = 0; m < all.weights.size(); ++m) {
-    for (int draw = 0; draw < kDraws; ++draw)
-      add_draw(all, m, drawn_skins(random, all, skins), out);
+    for (int pair = 0; pair < kPairs; ++pair) {
+      const ErrorDraw z = drawn(random, count);
+      add_draw(all, m, z, tails, out);
+      add_draw(all, m, z.mirrored(), tails, out);
+    }
   }
   return out;
 }
@@ -219,18 +271,17 @@ void add_field_moves(const std::vector<WorthBySkin>& confirmed, const std::vecto
                      const std::vector<std::vector<double>>& correlation, bool in_proportion,
                      MemberWorth& designs) {
   const std::size_t n = moves.size();
-  if (!designs.skins) designs.skins = skins_of(designs);
   if (std::all_of(moves.begin(), moves.end(), [](double move) { return move == 0; })) return;
   const std::vector<std::vector<double>> root = correlation_root(correlation);
-  const std::size_t skins = skins_of(designs);
+  const std::size_t before = make_room_for_errors(designs);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t m = 0; m < designs.by_skin[i].size(); ++m) {
+    for (std::size_t m = 0; m < designs.weights.size(); ++m) {
       const double worth = designs.worth[i][m];
       const bool scales = in_proportion && confirmed[i].worth != 0 && !std::isnan(worth);
       const double there = moves[i] * (scales ? worth / confirmed[i].worth : 1);
-      std::vector<double>& by_skin = designs.by_skin[i][m];
-      by_skin.resize(skins, 0);
-      for (std::size_t k = 0; k < n; ++k) by_skin.push_back(there * root[i][k]);
+      std::vector<double>& by_error = designs.by_error[i][m];
+      by_error.resize(before, 0);
+      for (std::size_t k = 0; k < n; ++k) by_error.push_back(there * root[i][k]);
     }
   }
 }
@@ -247,12 +298,16 @@ bool MemberWorth::keeps(std::size_t design, std::size_t member) const {
                      [member](const std::vector<bool>& of) { return of[member]; });
 }
 
-std::vector<double> MemberWorth::moves_of_skins(std::size_t design) const {
+std::vector<double> MemberWorth::mean_moves(std::size_t design) const {
   std::vector<double> out;
-  for (std::size_t m = 0; design < by_skin.size() && m < by_skin[design].size(); ++m) {
-    const std::vector<double>& moves = by_skin[design][m];
-    out.resize(std::max(out.size(), moves.size()), 0);
-    for (std::size_t s = 0; s < moves.size(); ++s) out[s] += weights[m] / total(weights) * moves[s];
+  for (const auto* moves : {&by_skin, &by_error}) {
+    const std::size_t before = out.size();
+    out.resize(before + longest(*moves), 0);
+    for (std::size_t m = 0; !moves->empty() && m < weights.size(); ++m) {
+      const std::vector<double>& at = (*moves)[design][m];
+      for (std::size_t k = 0; k < at.size(); ++k)
+        out[before + k] += weights[m] / total(weights) * at[k];
+    }
   }
   return out;
 }
@@ -310,10 +365,10 @@ void combine_levels(const std::vector<WorthBySkin>& confirmed, const std::vector
       for (std::size_t s = 0; s < skins; ++s) by_skin[s] = member[s][k] - corrected * levels[s][k];
     }
   }
-  designs.skins = skins_of(designs);
 }
 
 void shrink_moves(const std::vector<WorthBySkin>& own, bool in_proportion, MemberWorth& designs) {
+  const std::size_t before = make_room_for_errors(designs);
   for (std::size_t m = 0; m < designs.weights.size(); ++m) {
     std::vector<std::size_t> known;
     std::vector<double> alike;  // what all designs move by, up to a factor
@@ -351,7 +406,8 @@ void shrink_moves(const std::vector<WorthBySkin>& own, bool in_proportion, Membe
       by_skin.resize(skins, 0);
       for (std::size_t s = 0; s < skins; ++s)
         by_skin[s] -= (1 - std::sqrt(kept.value)) * of_skins[s][k];
-      by_skin.push_back(kept.se * moves[k]);
+      designs.by_error[known[k]][m].resize(before + 1, 0);
+      designs.by_error[known[k]][m].back() = kept.se * moves[k];
     }
   }
 }
@@ -404,7 +460,8 @@ void set_less_sure(const MemberWorth& d, std::vector<Prospect>& found) {
 
 std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& risk) {
   PAPILLA_CHECK(designs.kept.size() == designs.worth.size(), "limits of every design");
-  const MemberWorth d = over_skins(designs);
+  const MemberWorth d = over_errors(designs, Tails::Student),
+                    of_means = over_errors(designs, Tails::Normal);
   std::vector<Prospect> out(d.worth.size());
   const double all = total(d.weights);
   // Those at which no design has an answer tell none from another.
@@ -416,7 +473,10 @@ std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& ri
     weights.push_back(d.weights[m]);
   }
   const double of_known = total(weights);
-  for (const std::size_t m : known) add_member(d, m, d.weights[m] / of_known, out);
+  for (const std::size_t m : known) {
+    add_best(d, m, d.weights[m] / of_known, out);
+    add_regret(of_means, m, d.weights[m] / of_known, out);
+  }
   for (std::size_t i = 0; i < out.size(); ++i) {
     Prospect& p = out[i];
     std::vector<double> worth;
@@ -429,6 +489,7 @@ std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& ri
       for (std::size_t k = 0; k < p.p_limit.size(); ++k) p.p_limit[k] += d.kept[i][k][m] ? w : 0;
     }
     // Weights sum to 1 but for their last digits.
+    p.p_best = std::min(1.0, p.p_best);
     p.p_limits = std::min(1.0, p.p_limits);
     for (double& kept : p.p_limit) kept = std::min(1.0, kept);
     if (risk.regret)
@@ -441,26 +502,38 @@ std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& ri
 }
 
 SettledSkins settled_skins(const MemberWorth& designs, const BeliefRisk& risk, double p_limits) {
-  const std::size_t skins = skins_of(designs);
-  const int draws = skins < 2 ? 1 : kSettledDraws;
-  RandomStream random(2, "decision");
-  SettledSkins out;
-  for (int draw = 0; draw < draws; ++draw) {
-    MemberWorth drawn;
-    if (skins >= 2) {
-      const std::vector<double> z = drawn_skins(random, designs, skins);  // of all members at once
-      for (std::size_t m = 0; m < designs.weights.size(); ++m) add_draw(designs, m, z, drawn);
-    }
-    const std::vector<Prospect> found = prospects(skins < 2 ? designs : drawn, risk);
-    const Prospect& choice = found[chosen(found, p_limits)];
-    out.p_best += choice.p_best / draws;  // Eq. search.24
-    out.regret += choice.regret / draws;
+  const auto choice = [&](const MemberWorth& of) {
+    const std::vector<Prospect> found = prospects(of, risk);
+    return found[chosen(found, p_limits)];
+  };
+  const ErrorCount count(designs);
+  if (count.none()) {
+    const Prospect known = choice(designs);
+    return {known.p_best, known.regret};
   }
+  SettledSkins out;
+  RandomStream random(2, "decision");
+  for (int pair = 0; pair < kSettledPairs; ++pair) {
+    const ErrorDraw z = drawn(random, count);  // of all members at once
+    for (const ErrorDraw& draw : {z, z.mirrored()}) {
+      const auto choice_if_true = [&](Tails tails) {
+        MemberWorth of;
+        for (std::size_t m = 0; m < designs.weights.size(); ++m)
+          add_draw(designs, m, draw, tails, of);
+        return choice(of);
+      };
+      // Eq. search.24
+      out.p_best += choice_if_true(Tails::Student).p_best;
+      out.regret += choice_if_true(Tails::Normal).regret;
+    }
+  }
+  out.p_best /= 2 * kSettledPairs;  // of the sum: not a last digit above 1
+  out.regret /= 2 * kSettledPairs;
   return out;
 }
 
 double best_worth(const MemberWorth& designs) {
-  const MemberWorth d = over_skins(designs);
+  const MemberWorth d = over_errors(designs, Tails::Normal);
   double sum = 0, weight = 0;
   for (std::size_t m = 0; m < d.weights.size(); ++m) {
     const double best = best_at(d, m);

@@ -33,8 +33,8 @@ struct MemberWorth {
   // to its variance. Designs share their skins, so much of it is common to them. Empty: the worth
   // has no sampling error.
   std::vector<std::vector<std::vector<double>>> by_skin{};
-  // How many skins know that error, where other errors stand in by_skin too; none: all of them.
-  std::optional<std::size_t> skins{};
+  // [design][member][error] The same by what else is not known: a standard error of each.
+  std::vector<std::vector<std::vector<double>>> by_error{};
   // Where members are draws of others: which each is a draw of. Draws of one share its limits, and
   // it counts once where members tell designs apart. Empty: each is its own.
   std::vector<std::size_t> draw_of{};
@@ -43,8 +43,9 @@ struct MemberWorth {
   bool known(std::size_t member) const;
   // No limit is broken there, and the design is worth something if any is.
   bool keeps(std::size_t design, std::size_t member) const;
-  // [skin] What each moves a design by on average over the members: the e_ik of Eq. lab.3.
-  std::vector<double> moves_of_skins(std::size_t design) const;
+  // What each skin, then each other error, moves a design by on average over the members: the e_ik
+  // of Eq. lab.3.
+  std::vector<double> mean_moves(std::size_t design) const;
 };
 
 // A worth and what each of the skins behind it moves it by.
@@ -63,11 +64,11 @@ void combine_levels(const std::vector<WorthBySkin>& confirmed, const std::vector
 // Shrinks the differences between designs that a member states, the more the more they scatter
 // from skin to skin. own: the worths for the finger as it is. What a member does to all designs
 // alike stays: one factor on `own` if in_proportion, else one shift. The uncertainty of the
-// shrinkage is added to by_skin as one more skin. Eq. search.23
+// shrinkage is added to by_error. Eq. search.23
 void shrink_moves(const std::vector<WorthBySkin>& own, bool in_proportion, MemberWorth& designs);
-// Adds to by_skin what few skins leave open of each design's correction to the 3-D field, as one
-// more skin a design. moves: a standard error of it, of the confirmed worths; correlation: of these
-// errors, [design][design]. in_proportion: members scale it as they scale the worth. Eq. search.15
+// Adds to by_error what few skins leave open of each design's correction to the 3-D field. moves: a
+// standard error of it, of the confirmed worths; correlation: of these errors, [design][design].
+// in_proportion: members scale it as they scale the worth. Eq. search.15
 void add_field_moves(const std::vector<WorthBySkin>& confirmed, const std::vector<double>& moves,
                      const std::vector<std::vector<double>>& correlation, bool in_proportion,
                      MemberWorth& designs);

@@ -14,7 +14,7 @@
 namespace papilla::search {
 
 // Raised when the meaning or the order of what is encoded changes: part of the journal's key.
-constexpr int kProtocol = 9;
+constexpr int kProtocol = 10;
 
 // What a design is asked for, each at its level (levels.h).
 enum class Stage {

@@ -135,7 +135,8 @@ AnsweredAgain answer_again(const StudyProblem& problem, const Folder& folder,
     const double spent =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
     std::vector<Bytes> some;
-    const std::size_t end = std::min(order.size(), done + 2 * workers);
+    // The first ones say what the others take: no more of them than are answered at a time.
+    const std::size_t end = std::min(order.size(), done + (done == 0 ? 1 : 2) * workers);
     double price = 0;
     for (std::size_t i = done; i < end; ++i) {
       const Stage stage = requests[order[i]].stage;
@@ -143,9 +144,9 @@ AnsweredAgain answer_again(const StudyProblem& problem, const Folder& folder,
       price += prices[stage];
       some.push_back(encode(requests[order[i]]));
     }
-    // What would end after the time is not begun, as long as something is answered.
-    const double then = spent + (priced > 0 ? price * spent / priced : 0);
-    if ((how.stop && *how.stop) || (how.seconds > 0 && then > how.seconds)) break;
+    // What would end after the time is not begun, but for the first ones.
+    const bool late = done > 0 && how.seconds > 0 && spent + price * spent / priced > how.seconds;
+    if ((how.stop && *how.stop) || late) break;
     priced += price;
     for (const WorkAnswer& answer : team->answer(some, how.stop)) {
       const std::size_t i = order[done++];

@@ -38,9 +38,11 @@ class AskedQuestions {
 
 struct AskingAgain {
   std::vector<Stage> stages;  // empty: all after the search
-  double seconds = 0;         // of the clock; what does not fit keeps its answer; 0: no limit
-  int jobs = 0;               // 0: all processors
-  ResponseText text;          // as the run had it
+  // Of the clock; what would end later is not begun and keeps its answer. What is begun is waited
+  // for, the first question of each worker in any case. 0: no limit.
+  double seconds = 0;
+  int jobs = 0;                                       // 0: all processors
+  ResponseText text;                                  // as the run had it
   std::function<void(int done, int total)> progress;  // may be empty
   const std::atomic<bool>* stop = nullptr;
 };

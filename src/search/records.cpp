@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "search/stability.h"
 
@@ -57,10 +58,17 @@ bool possible(const StudyProblem& problem, Stage stage, const TaskAnswer& a) {
   return true;
 }
 
+// By its run.json: a run keeps its journal after it has ended.
+bool has_ended(const Folder& folder) {
+  if (!folder.has("run.json")) return false;
+  const auto run = nlohmann::json::parse(folder.read("run.json"), nullptr, false);
+  return run.is_object() && run.contains("interrupted") && run["interrupted"] == false;
+}
+
 }  // namespace
 
 std::string unfinished_hint(const Folder& folder) {
-  if (!folder.has(kJournalName)) return {};
+  if (!folder.has(kJournalName) || has_ended(folder)) return {};
   return "; its run was interrupted: `papilla optimize STUDY --out " + folder.path() +
          " --resume` goes on with it, with --finish to the results of what it has";
 }

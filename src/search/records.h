@@ -15,7 +15,8 @@ namespace papilla::search {
 
 inline constexpr const char* kJournalName = "journal";
 
-// "; it was interrupted: ...": of a folder whose run has not come to its results; "": no run.
+// "; it was interrupted: ...": of a folder whose run has not come to its results; "": no run, or
+// one that has ended.
 std::string unfinished_hint(const Folder& folder);
 
 // That the journal of a study begins with.

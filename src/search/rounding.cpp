@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "base/units.h"
+#include "design/families.h"
 
 namespace papilla::search {
 namespace {
@@ -19,6 +20,13 @@ constexpr int kReach = 3;  // values of the grid on either side of a number
 
 bool is_length(const std::string& unit) { return find_unit(unit)->same_dimension(*find_unit("m")); }
 
+// On the mask, whose writer puts edges on the places of its grid and nowhere between, however short
+// the length is. Depths, films and radii are made by times and doses, which no grid bounds.
+bool is_drawn(const Variable& v) {
+  const std::optional<Measure> measure = measure_of(v.path);
+  return measure == Measure::Period || measure == Measure::Width;
+}
+
 // As a file would write it: 7.05 um, not 7.050000000000001.
 double multiple(double value, double step, const std::string& unit) {
   const double shown = std::round(value / step) * step / find_unit(unit)->to_si;
@@ -29,6 +37,7 @@ double multiple(double value, double step, const std::string& unit) {
 double step_of(const Variable& v, double value, double grid) {
   if (is_length(v.unit)) {
     double step = grid;
+    if (is_drawn(v)) return step;
     while (step > kMostChange * std::abs(value) && step > 1.5 * kFinest) step /= 10;
     return step;
   }

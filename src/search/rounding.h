@@ -11,14 +11,15 @@
 
 namespace papilla::search {
 
-// A number of a design on a fab's grid [m]: lengths to multiples of it, or of a tenth, a hundredth
-// ... of it where that is more than a fiftieth of the length; angles to degrees; the rest to three
-// digits. Within low and high where the grid has such a value.
+// A number of a design on a fab's grid [m]: what a mask draws (periods and widths of textures) to
+// multiples of it; other lengths too, or to multiples of a tenth, a hundredth ... of it where it is
+// more than a fiftieth of the length; angles to degrees; the rest to three digits. Within low and
+// high where the grid has such a value.
 double on_grid(const Variable& variable, double value, double grid);
 // Not where the range of the variable has no value of the grid.
 bool lies_on_grid(const Variable& variable, double value, double grid);
 
-// Lengths below this [m] are on a finer grid than the fab's own.
+// Lengths below this [m] that no mask draws are on a finer grid than the fab's own.
 double finer_grid_below(double grid);
 
 // A design on the grid.

@@ -67,7 +67,8 @@ std::unique_ptr<Team> make_team(const StudyProblem& problem, const OptimiseOptio
                          work_function(problem, threads, response_text(options)), WorkerLimits{});
 }
 
-// Best values of a search so far, for people.
+// Best values of a search so far, for people, as its level has them: what is confirmed later has
+// other numbers.
 std::string best_text(const std::vector<StudyObjective>& objectives,
                       const std::vector<Evaluation>& history) {
   const auto front = pareto_front(history);
@@ -79,11 +80,13 @@ std::string best_text(const std::vector<StudyObjective>& objectives,
     for (std::size_t i : front) value = std::min(value, history[i].outcome.objectives[k]);
     // The ends of a front are different designs.
     const char* before = !out.empty() ? ", " : front.size() > 1 ? "best of each: " : "best ";
-    out +=
-        fmt::format("{}{} {}", before, objectives[k].name,
-                    shown_value(objectives[k].expression, objectives[k].maximise ? -value : value));
+    const MetricExpression& e = objectives[k].expression;
+    const std::string unit = shown_unit(e).unit;
+    out += fmt::format("{}{} {}{}{}", before, objectives[k].name,
+                       shown_value(e, objectives[k].maximise ? -value : value),
+                       unit.empty() ? "" : " ", unit);
   }
-  return out;
+  return out + " (search level)";  // last: a narrow terminal cuts it off
 }
 
 // A resumed run has what it was started with.

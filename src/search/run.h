@@ -79,7 +79,8 @@ struct FinalDesign {
 struct BuiltDesign {
   FinalDesign made;      // `confirmed` is ok if it was evaluated, at the confirmation's accuracy
   bool widened = false;  // rounded designs that are nearer to the recommended one break a limit
-  // False: every rounded design that was evaluated breaks a limit, so `made` is not rounded.
+  // False: every rounded design breaks a limit, by its shape or as it was evaluated, so `made` is
+  // not rounded.
   bool on_grid = true;
   std::size_t judged = 0;  // how many rounded designs were evaluated
   // The nearest rounded design that keeps the limits of the shape, if it was evaluated.

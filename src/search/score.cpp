@@ -190,6 +190,16 @@ void add_extremes(Score& score, const Scoring& s, const std::vector<TaskAnswer>&
 
 }  // namespace
 
+void move_limits(const StudyGoals& goals, const TaskAnswer& confirmed, const TaskAnswer& own,
+                 const TaskAnswer& there, TaskAnswer& out) {
+  for (std::size_t j = 0; j < goals.limited.size(); ++j) {
+    const MetricExpression& e = goals.limited[j].expression;
+    out.limited[j] = moved(confirmed.limited[j], own.limited[j], there.limited[j],
+                           keeps_sign(e.summary, e.metric));
+  }
+  out.oxide_margin = moved(confirmed.oxide_margin, own.oxide_margin, there.oxide_margin, true);
+}
+
 LimitedNumbers bad_side(const Scoring& s, const std::vector<LimitedNumbers>& of_tasks) {
   LimitedNumbers out;
   out.oxide_margin = kInfinity;

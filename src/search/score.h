@@ -51,6 +51,11 @@ struct Score {
   std::vector<std::string> reports{};   // of each task as designed; empty where not confirmed
 };
 
+// Sets the numbers of `out` that limits are about to the confirmed ones, moved as `there` moves
+// `own`: answers of one task at another level or of few skins. Eq. accuracy.15
+void move_limits(const StudyGoals& goals, const TaskAnswer& confirmed, const TaskAnswer& own,
+                 const TaskAnswer& there, TaskAnswer& out);
+
 // What scores are made with, of a study.
 struct Scoring {
   const StudyGoals& goals;

@@ -105,7 +105,7 @@ TaskAnswer evaluate_variant(const StudyProblem& problem, const Design& design, s
   const Design d = task_design(problem.study(), design, task);
   Scene scene = scene_of(d);
   variant.change(scene);
-  Responses both{evaluate(scene, d.texture, fidelity), pen_response(goals, d, fidelity)};
+  Responses both{evaluate_for(goals, scene, d.texture, fidelity), pen_response(goals, d, fidelity)};
   Response& response = both.own;
   if (auto refused = complete(response, goals, scene, d, variant.name, fidelity))
     return *std::move(refused);
@@ -118,6 +118,18 @@ TaskAnswer evaluate_variant(const StudyProblem& problem, const Design& design, s
                  : error_samples(o.expression.summary, o.expression.metric, both.of(o))});
   }
   return out;
+}
+
+void set_confirmed_limits(const StudyProblem& problem, const std::vector<TaskAnswer>& confirmed,
+                          std::vector<TaskAnswer>& answers) {
+  const std::vector<Variant> all = variants(problem);
+  const std::vector<TaskAnswer> own(answers.begin(),
+                                    answers.begin() + static_cast<long>(problem.nominal_tasks()));
+  for (std::size_t v = 0; v < all.size(); ++v) {
+    const TaskAnswer &as_it_is = own.at(all[v].task), &known = confirmed.at(all[v].task);
+    if (as_it_is.status.ok() && known.status.ok() && answers[v].status.ok())
+      move_limits(problem.goals(), known, as_it_is, answers[v], answers[v]);
+  }
 }
 
 Stability judge_stability(const StudyProblem& problem, const std::vector<Point>& designs,

@@ -51,6 +51,11 @@ std::optional<std::size_t> skin_variant(const StudyProblem& problem);
 TaskAnswer evaluate_variant(const StudyProblem& problem, const Design& design, std::size_t variant,
                             const Fidelity& fidelity);
 
+// Limits are judged as confirmed: what a variant changes is told apart from what the level of the
+// checks is off by. confirmed: answers of a design's tasks; answers: of its variants, changed.
+void set_confirmed_limits(const StudyProblem& problem, const std::vector<TaskAnswer>& confirmed,
+                          std::vector<TaskAnswer>& answers);
+
 // From answers[design][variant]. All designs meet the same skins: one counts as beaten only where
 // another is better in every objective by more than the error of their difference, skin by skin
 // (Eq. accuracy.14), and, where belief decides on the front, in the worst modulation.

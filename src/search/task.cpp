@@ -10,6 +10,7 @@
 #include "estimate/evaluation.h"
 #include "estimate/target.h"
 #include "estimate/voltage.h"
+#include "forward/dry_areas.h"
 #include "search/levels.h"
 #include "search/stability.h"
 
@@ -65,8 +66,10 @@ void add_samples(const StudyGoals& goals, const Responses& responses, TaskAnswer
 }
 
 // Finalists are worth the target of the study; the search is not.
-Response respond(const Scene& scene, const Design& d, const TaskWork& work) {
-  if (!work.confirmed || d.accuracy.target <= 0) return evaluate(scene, d.texture, work.fidelity);
+Response respond(const StudyGoals& goals, const Scene& scene, const Design& d,
+                 const TaskWork& work) {
+  if (!work.confirmed) return evaluate_for(goals, scene, d.texture, work.fidelity);
+  if (d.accuracy.target <= 0) return evaluate(scene, d.texture, work.fidelity);
   return evaluate_to_target(scene, d.texture,
                             {.target = d.accuracy.target,
                              .first_skin = work.fidelity.first_skin,
@@ -130,6 +133,13 @@ Fidelity add_model_part(const StudyProblem& problem, const Scene& scene, const D
 
 }  // namespace
 
+Response evaluate_for(const StudyGoals& goals, const Scene& scene, const Texture& texture,
+                      const Fidelity& fidelity) {
+  return goals.areas && fidelity.control_skins < 2
+             ? forward::evaluate_resolved(scene, texture, fidelity, forward::kFewDrySkins)
+             : evaluate(scene, texture, fidelity);
+}
+
 std::optional<TaskAnswer> complete(Response& response, const StudyGoals& goals, const Scene& scene,
                                    const Design& d, const std::string& task,
                                    const Fidelity& fidelity) {
@@ -154,7 +164,7 @@ std::optional<TaskAnswer> complete(Response& response, const StudyGoals& goals, 
 std::optional<Response> pen_response(const StudyGoals& goals, const Design& design,
                                      const Fidelity& fidelity) {
   if (!goals.pen) return std::nullopt;
-  return evaluate(scene_of(under_pen(design)), design.texture, fidelity);
+  return evaluate_for(goals, scene_of(under_pen(design)), design.texture, fidelity);
 }
 
 TaskAnswer answer_of(const StudyGoals& goals, const Design& d, const std::string& task,
@@ -190,7 +200,7 @@ TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std:
     return TaskAnswer::refused(Kind::ShapeRefused,
                                wrong.front().path + ": " + wrong.front().message);
   const Scene scene = scene_of(d);
-  Responses both{respond(scene, d, work)};
+  Responses both{respond(goals, scene, d, work)};
   Response& response = both.own;
   if (auto refused = complete(response, goals, scene, d, task.name, work.fidelity))
     return *std::move(refused);
@@ -235,7 +245,7 @@ TaskAnswer evaluate_steps(const StudyProblem& problem, const Design& design, std
   const Design d = task_design(problem.study(), design, problem.tasks().at(task), work.flat);
   const Scene scene = scene_of(d);
   Response response;
-  if (problem.goals().felt) response = respond(scene, d, work);
+  if (problem.goals().felt) response = respond(problem.goals(), scene, d, work);
   if (problem.goals().looks) response.appearance = appearance_of(d);
   response.driven = scene.drive.driven();
   const Fidelity few = add_model_part(problem, scene, d, work.fidelity, response);

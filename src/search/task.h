@@ -33,6 +33,11 @@ struct Responses {
   const Response& of(const StudyObjective& o) const { return o.expression.pen ? *pen : own; }
 };
 
+// A response without errors or to those of its fidelity. Where a goal is about contact areas, and
+// no control skins say what the pixels leave out of them, a dry contact does (Eq. accuracy.17): at
+// the level of a search friction would be half as much again as it is confirmed.
+Response evaluate_for(const StudyGoals& goals, const Scene& scene, const Texture& texture,
+                      const Fidelity& fidelity);
 // What a study wants to know of a response beside the patches: its look, the voltages of
 // voltage_for. An answer where the design has none: no theory of its look, no equilibrium.
 std::optional<TaskAnswer> complete(Response& response, const StudyGoals& goals, const Scene& scene,

@@ -10,8 +10,8 @@
 
 #include "base/watch.h"
 #include "config/describe.h"
-#include "estimate/belief.h"
 #include "estimate/difference.h"
+#include "estimate/evaluation.h"
 #include "forward/forward.h"
 #include "metrics/metrics.h"
 
@@ -24,12 +24,24 @@ constexpr std::chrono::milliseconds kStill{350};  // without a wish, before refi
 constexpr std::size_t kMostKnown = 24;            // designs whose answers are kept
 constexpr int kRefiningNiceness = 2;
 
-// Of Draft and Design.
-Fidelity fidelity_of_step(const Design& design, Step step) {
-  Fidelity out = fidelity_level(name_of(step));
+// On the skins of the design.
+Fidelity draft_fidelity(const Design& design) {
+  Fidelity out = fidelity_level("draft");
   out.seed = static_cast<std::uint64_t>(design.accuracy.seed);
-  if (step == Step::Design && design.accuracy.grid > 0) out.grid = design.accuracy.grid;
   return out;
+}
+
+// Of Draft and Design, each with what its own members of belief say: they are run on its pixels and
+// skins. The last is at the accuracy that the design states, as `papilla evaluate` answers it.
+EvaluationOptions options_of_step(const Design& design, Step step) {
+  EvaluationOptions out;
+  if (step == Step::Draft) out.fidelity = draft_fidelity(design);
+  return out;
+}
+
+// Whether the design's own accuracy is that of a draft, which needs no second run.
+bool asks_for_a_draft(const Design& design) {
+  return design.accuracy.target == 0 && fidelity_of(design) == draft_fidelity(design);
 }
 
 constexpr double kSlopeStep = 0.05;  // of a number, either way
@@ -88,8 +100,13 @@ Evaluator::Subject Evaluator::subject_of(const Design& design) {
 
 void Evaluator::wish(const Wish& wish) {
   Question question{0, wish.revision, subject_of(wish.design), {}};
-  for (const auto& [number, design] : wish.pinned)
-    question.pinned.emplace(number, subject_of(design));
+  for (const auto& [number, design] : wish.pinned) {
+    Subject pinned = subject_of(design);
+    // One accuracy for all, or they would meet other skins and not be compared by them; what a
+    // target chooses of it is that of the design at hand (chosen_accuracy).
+    pinned.design.accuracy = wish.design.accuracy;
+    question.pinned.emplace(number, std::move(pinned));
+  }
   {
     const std::lock_guard lock(mutex_);
     question.number = ++wishes_;
@@ -111,7 +128,7 @@ Evaluator::Known& Evaluator::known(const Subject& subject) {
     std::rotate(at, at + 1, known_.end());
   } else {
     if (known_.size() >= kMostKnown) known_.erase(known_.begin());
-    known_.push_back({subject, {}, {}, {}});
+    known_.push_back({subject, {}, {}, {}, {}});
   }
   return known_.back();
 }
@@ -239,7 +256,7 @@ void Evaluator::find_slopes(const Question& wish) {
   std::vector<Slope> out = known(wish.at_hand).slopes;
   lock.unlock();
   listener_.slopes(wish.revision, out);
-  const Fidelity fidelity = fidelity_of_step(at_hand, Step::Draft);
+  const Fidelity fidelity = draft_fidelity(at_hand);
   const auto moved = [&](const std::string& path, double value) {
     Design design = at_hand;
     set_number(design, path, value);
@@ -272,35 +289,48 @@ bool Evaluator::refine_to(const Question& wish, const Subject& subject, Step ste
   std::unique_lock lock(mutex_);
   const std::map<Step, Response> before = known(subject).refined;
   const bool compared = subject != wish.at_hand && carrying(subject);
+  const bool there = response_at(wish, subject, step).has_value();
+  const std::optional<Fidelity> chosen = chosen_accuracy(wish, subject, step);
   lock.unlock();
   if (compared) first_answer_of(subject, nullptr);  // beside what moves next
-  if (before.count(step)) return false;
-  const Scene scene = scene_of(design);
-  listener_.refining(wish.revision, what, 0);
-  const Fidelity fidelity = fidelity_of_step(design, step);
-  Response response = evaluate(scene, design.texture, fidelity);
-  // Members are run once a design, after its first answer; they do not depend on the step.
-  if (const auto draft = before.find(Step::Draft); draft != before.end()) {
-    response.belief = draft->second.belief;
-    state_belief(response);
-  } else {
-    add_belief(response, scene, design.texture, fidelity);
-  }
+  if (there) return false;
+  const auto draft = before.find(Step::Draft);
+  const bool drafted = step == Step::Design && draft != before.end() && asks_for_a_draft(design);
+  if (!drafted) listener_.refining(wish.revision, what, 0);
+  EvaluationOptions options = options_of_step(design, step);
+  if (chosen) options.fidelity = chosen;
+  const Response response = drafted ? draft->second : evaluate_design(design, options);
   if (subject == wish.at_hand) hold_on(subject, response);
   lock.lock();
-  known(subject).refined[step] = response;
+  if (chosen)
+    known(subject).beside = response;
+  else
+    known(subject).refined[step] = response;
   const std::map<Step, Response> own = known(wish.at_hand).refined;
   lock.unlock();
   if (const auto at = own.find(step); at != own.end()) tell(wish, step, at->second);
   return true;
 }
 
+std::optional<Fidelity> Evaluator::chosen_accuracy(const Question& wish, const Subject& subject,
+                                                   Step step) {
+  if (step != Step::Design || subject == wish.at_hand || wish.at_hand.design.accuracy.target == 0)
+    return std::nullopt;
+  const std::map<Step, Response>& own = known(wish.at_hand).refined;
+  const auto at = own.find(step);
+  return at == own.end() ? std::nullopt : std::optional(at->second.fidelity);
+}
+
 // First answers are compared as they are shown, and only where one anchor carries both.
-std::optional<Response> Evaluator::response_at(const Subject& subject, Step step) {
+std::optional<Response> Evaluator::response_at(const Question& wish, const Subject& subject,
+                                               Step step) {
+  const std::optional<Fidelity> chosen = chosen_accuracy(wish, subject, step);
   const Known& of = known(subject);
   if (step != Step::First) {
     const auto at = of.refined.find(step);
-    return at == of.refined.end() ? std::nullopt : std::optional(at->second);
+    const bool own = at != of.refined.end() && (!chosen || at->second.fidelity == *chosen);
+    if (own) return at->second;
+    return chosen && of.beside && of.beside->fidelity == *chosen ? of.beside : std::nullopt;
   }
   const std::shared_ptr<const Anchor> anchor = carrying(subject);
   if (!anchor || !of.quick) return std::nullopt;
@@ -316,9 +346,9 @@ std::vector<Comparison> Evaluator::comparisons(const Question& wish, Step step) 
   const std::lock_guard lock(mutex_);
   const auto quick = [&](const Subject& s) -> Response { return *known(s).quick; };
   std::vector<Comparison> out;
-  const std::optional<Response> ours = response_at(wish.at_hand, step);
+  const std::optional<Response> ours = response_at(wish, wish.at_hand, step);
   for (const auto& [number, subject] : wish.pinned) {
-    const std::optional<Response> theirs = response_at(subject, step);
+    const std::optional<Response> theirs = response_at(wish, subject, step);
     if (!theirs || !ours) continue;
     const double drift =
         step == Step::First ? difference_drift(quick(subject), quick(wish.at_hand)) : 0;
@@ -345,11 +375,12 @@ void Evaluator::tell(const Question& wish, Step step, Response shown) {
       asked_at_.erase(asked_at_.begin(), at);
     }
     for (const auto& [number, subject] : wish.pinned) {
-      const std::map<Step, Response>& refined = known(subject).refined;
-      if (!refined.empty())
-        answer.pinned[number] = refined.rbegin()->second;
-      else if (const std::optional<Response> first = response_at(subject, Step::First))
-        answer.pinned[number] = *first;
+      std::optional<Response> finest = response_at(wish, subject, Step::Design);
+      if (!finest) finest = known(subject).beside;
+      for (const Step coarser : {Step::Draft, Step::First}) {
+        if (!finest) finest = response_at(wish, subject, coarser);
+      }
+      if (finest) answer.pinned[number] = *finest;
     }
   }
   listener_.answer(answer);

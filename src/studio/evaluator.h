@@ -27,7 +27,8 @@ struct Wish {
   std::map<int, Design> pinned;  // by their numbers
 };
 
-// Finer and finer.
+// Finer and finer; the last is the accuracy that the design states (its [accuracy]), which its pins
+// are answered at too; with a target, the accuracy that the target chose for the design.
 enum class Step { First, Draft, Design };
 const char* name_of(Step step);  // "first", "draft", "design"
 
@@ -101,6 +102,7 @@ class Evaluator {
     Subject subject;
     std::optional<Response> quick;     // by the anchor at hand where that carries the design
     std::map<Step, Response> refined;  // Draft, Design
+    std::optional<Response> beside;    // pinned: at the chosen_accuracy of the last comparison
     std::vector<Slope> slopes;
   };
 
@@ -118,7 +120,11 @@ class Evaluator {
   // With the lock held.
   Known& known(const Subject& subject);
   std::shared_ptr<const Anchor> carrying(const Subject& subject) const;  // null: none does
-  std::optional<Response> response_at(const Subject& subject, Step step);
+  // What a pinned design is answered at where a target chose the accuracy of the one at hand: the
+  // pixels, skins and estimator that it chose there. A choice of its own would meet other skins.
+  // None: at the accuracy that both state, or what is chosen is not known yet.
+  std::optional<Fidelity> chosen_accuracy(const Question& wish, const Subject& subject, Step step);
+  std::optional<Response> response_at(const Question& wish, const Subject& subject, Step step);
   bool outdated(const Question& wish) const;
 
   Listener listener_;

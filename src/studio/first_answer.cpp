@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "estimate/voltage.h"
 #include "forward/forward.h"
 #include "geometry/texture.h"
 #include "metrics/metrics.h"
@@ -111,9 +112,11 @@ Response quick_answer(const Design& design, const Anchor* anchor, KeptPatches* k
   const Scene scene = scene_of(design);
   const Fidelity fidelity = quick_fidelity(design);
   const std::vector<LoadLaws> laws = anchor ? anchor->laws : std::vector<LoadLaws>();
-  return respond(scene, fidelity,
-                 kept ? kept->solve(scene, design.texture, fidelity, laws)
-                      : solve_patches(scene, design.texture, fidelity, {}, laws));
+  Response out = respond(scene, fidelity,
+                         kept ? kept->solve(scene, design.texture, fidelity, laws)
+                              : solve_patches(scene, design.texture, fidelity, {}, laws));
+  set_bridged_margins(out, scene, design.texture);  // as a refined answer has them
+  return out;
 }
 
 bool carries(const Anchor& anchor, const Design& design) {

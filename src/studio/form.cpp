@@ -271,7 +271,7 @@ std::vector<Change> changes_between(const Design& from, const Design& to) {
   // Options of the model that a file does not set are those that its finger was fitted with.
   const bool other_defaults = !(from.finger.calibrated_for == to.finger.calibrated_for);
   for (const FormKey& key : after) {
-    if (lists.contains(list_of(key.path))) continue;
+    if (key.path == "title" || lists.contains(list_of(key.path))) continue;
     const auto same = std::find_if(before.begin(), before.end(),
                                    [&](const FormKey& k) { return k.path == key.path; });
     const bool kept = same != before.end() && same->value == key.value;

@@ -48,7 +48,8 @@ std::string list_of(const std::string& path);
 Change whole_list(const Design& design, const std::string& list);
 
 // The settings that make one design of another; a new kind of texture comes first. A list with
-// other items, in number or kind, is one change: what is not there has no key.
+// other items, in number or kind, is one change: what is not there has no key. Without the title,
+// which follows from the changes.
 std::vector<Change> changes_between(const Design& from, const Design& to);
 
 // The rows of the form. opened: the design that sliders take their ranges from.

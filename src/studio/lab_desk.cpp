@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "report/lab_words.h"
 #include "studio/child.h"
 
 namespace papilla::studio {
@@ -24,14 +23,6 @@ std::string last_line(const std::string& text) {
     if (!line.empty()) out = line;
   }
   return out;
-}
-
-// What the page shows worth and regret in, which lab.json has in SI.
-Json shown_worth(const Json& lab) {
-  LabFile file;
-  file.worth = lab.at("standing").at("worth").get<std::string>();
-  const ShownUnit shown = worth_unit(file);
-  return {{"scale", shown.scale}, {"unit", shown.unit}};
 }
 
 }  // namespace
@@ -155,7 +146,6 @@ Json LabDesk::json(const std::string& results) const {
   try {
     if (const std::string state = text(lab + "lab.json"); !state.empty())
       out["lab"] = Json::parse(state);
-    if (out["lab"].contains("standing")) out["worth"] = shown_worth(out["lab"]);
   } catch (const Json::exception&) {  // it is being written
   }
   if (out["lab"].is_null()) return out;

@@ -245,6 +245,8 @@ std::vector<Change> local_changes(const Draft& draft, const Design& design, cons
     if (!list.empty() && !node_at(root, list)) change = whole_list(design, list);
     if (std::find(out.begin(), out.end(), change) == out.end()) out.push_back(change);
   }
+  if (const std::string title = title_of(draft, design); title != design.title)
+    out.push_back({"title", toml_string(title)});
   return out;
 }
 
@@ -284,14 +286,17 @@ std::string edited_toml(const std::string& text, const std::vector<Change>& chan
 
 std::string saved_text(const Draft& draft, const fs::path& target) {
   const fs::path folder = fs::weakly_canonical(target.parent_path());
-  const Study study = study_of(draft);
+  Study study = study_of(draft);
   if (fs::weakly_canonical(draft.file).parent_path() == folder) {
     const std::string text = read_bytes(draft.file);
     return edited_toml(text, local_changes(draft, study.design, folder, parse_toml(text, "")));
   }
   const std::string base = base_name(draft.file, folder);
   // Readers take no base from above the folder of a file: the whole of it then.
-  if (base.starts_with("../")) return resolved_toml(study);
+  if (base.starts_with("../")) {
+    study.design.title = title_of(draft, study.design);
+    return resolved_toml(study);
+  }
   return edited_toml(fmt::format("schema_version = 1\nbase = \"{}\"\n", base),
                      local_changes(draft, study.design, folder, table_node()));
 }

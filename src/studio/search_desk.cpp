@@ -6,6 +6,7 @@
 #include <charconv>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -78,6 +79,12 @@ int number_of(const std::string& name) {
   return whole && name == fmt::format("{:03}", out) ? out : 0;
 }
 
+// That a program ended because of it.
+bool says_an_error(const std::string& log) {
+  constexpr std::string_view kError = "error:";
+  return log.starts_with(kError) || log.find("\n" + std::string(kError)) != std::string::npos;
+}
+
 Json csv_rows(const std::string& text) {
   Json out = Json::array();
   std::vector<std::string> head;
@@ -141,9 +148,13 @@ void SearchDesk::take_up(int number) {
   number_ = number;
   try {
     begin_reading();
-    // One that was interrupted has files too, but no end in its journal.
+    if (!trouble_.empty()) return;
+    // One that was interrupted has files too, but no end in its journal; one that was refused has
+    // no journal, and nothing to resume.
     const bool finished = ended_ && folder_.has(in_place("run.json"));
-    if (trouble_.empty()) state_ = finished ? SearchState::Finished : SearchState::Paused;
+    const bool refused = !folder_.has(in_place(kJournalName)) && says_an_error(log());
+    state_ = finished ? SearchState::Finished : refused ? SearchState::Failed : SearchState::Paused;
+    if (refused) trouble_ = last_words();
   } catch (const InputError& error) {
     state_ = SearchState::Failed;
     trouble_ = error.what();
@@ -296,10 +307,15 @@ void SearchDesk::wait_for_child() {
   const bool paused = stopping_ || *code >= 128;
   stopping_ = false;
   state_ = finished ? SearchState::Finished : paused ? SearchState::Paused : SearchState::Failed;
-  if (state_ == SearchState::Failed && trouble_.empty() && folder_.has(in_place(kLog)))
-    trouble_ = visible(last_lines(folder_.read(in_place(kLog))));
+  if (state_ == SearchState::Failed && trouble_.empty()) trouble_ = last_words();
   changed_.notify_all();
 }
+
+std::string SearchDesk::log() const {
+  return folder_.has(in_place(kLog)) ? folder_.read(in_place(kLog)) : "";
+}
+
+std::string SearchDesk::last_words() const { return visible(last_lines(log())); }
 
 std::string SearchDesk::results() const {
   const std::lock_guard lock(mutex_);
@@ -347,6 +363,18 @@ Json SearchDesk::front_json() const {
   return csv_rows(folder_.read(table));
 }
 
+// The design that the run recommends, "front/03", null where it is a surface without texture; and
+// what the run says of it.
+Json SearchDesk::recommended_json() const {
+  Json out{{"design", nullptr}, {"words", ""}};
+  if (state_ != SearchState::Finished || !folder_.has(in_place("run.json"))) return out;
+  const Json run = Json::parse(folder_.read(in_place("run.json")), nullptr, false);
+  if (!run.is_object()) return out;
+  if (run.contains("design")) out["design"] = run["design"];
+  if (run.contains("recommendation")) out["words"] = run["recommendation"];
+  return out;
+}
+
 Json SearchDesk::json() const {
   const std::lock_guard lock(mutex_);
   Json out{{"state", name_of(state_)}, {"number", number_}, {"numbers", numbers()}};
@@ -392,6 +420,7 @@ Json SearchDesk::json() const {
   out["points"] = points;
   out["front"] = pareto_front(tried);
   out["confirmed"] = front_json();
+  out["recommended"] = recommended_json();
   return out;
 }
 

@@ -105,6 +105,9 @@ class SearchDesk {
   Draft draft_of(const Design& design, const std::string& instead) const;
   void begin_reading();
   nlohmann::ordered_json front_json() const;
+  nlohmann::ordered_json recommended_json() const;
+  std::string log() const;         // of the program; empty: it said nothing
+  std::string last_words() const;  // of that, for people
   void stop_child(std::unique_lock<std::mutex>& lock);
 
   Folder folder_;

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "design/families.h"
+#include "design/title.h"
 #include "geometry/texture.h"
 
 namespace papilla::studio {
@@ -80,6 +81,17 @@ Study study_of(const Draft& draft) {
   return read_study(draft.file, settings);
 }
 
+std::string title_of(const Draft& draft, const Design& design) {
+  std::vector<std::string> settings;
+  for (const Change& c : draft.changes) {
+    // Of a file its name alone: not where it lies on this machine.
+    const bool file = c.path == "texture.file";
+    settings.push_back(file ? Change{c.path, fs::path(c.text).filename().string()}.setting()
+                            : c.setting());
+  }
+  return title_as_set(design, settings);
+}
+
 Session::Session(const fs::path& folder, const std::string& file)
     : kept_(Folder(folder).made_below(kStudioFolder)) {
   restore(file);
@@ -146,6 +158,12 @@ void Session::adopt(Draft draft) {
   ++revision_;
 }
 
+Study Session::titled_study() const {
+  Study out = study_;
+  out.design.title = title_of(draft_, study_.design);
+  return out;
+}
+
 SessionView Session::view() const {
   const std::lock_guard lock(mutex_);
   std::vector<const Draft*> drafts;
@@ -155,7 +173,7 @@ SessionView Session::view() const {
   std::vector<std::string> steps;
   for (std::size_t i = 1; i < drafts.size(); ++i)
     steps.push_back(step_text(*drafts[i - 1], *drafts[i]));
-  return {revision_, draft_, study_, opened_, pins_, std::move(steps), past_.size()};
+  return {revision_, draft_, titled_study(), opened_, pins_, std::move(steps), past_.size()};
 }
 
 std::uint64_t Session::replace(Draft next, std::uint64_t step) {
@@ -266,7 +284,7 @@ std::uint64_t Session::save_as(const std::string& file,
   for (Draft& draft : past_) note(draft);
   for (Draft& draft : future_) note(draft);
   for (PinnedDesign& pin : pins_) note(pin.draft);
-  write(draft_, study_);
+  write(draft_, titled_study());
   const Design now = study_of({file, {}}).design;
   for (auto& [draft, design] : standing) draft->changes = changes_between(now, design);
   const bool own_wish = wish_of_ == file_and_kind();

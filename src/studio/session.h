@@ -44,7 +44,7 @@ struct PinnedDesign {
 struct SessionView {
   std::uint64_t revision = 0;  // rises with every change of the design
   Draft draft;
-  Study study;
+  Study study;    // titled as title_of has it
   Design opened;  // of the file, without the changes
   std::vector<PinnedDesign> pins;
   // What each step changed, oldest first, the undone ones behind: the design at hand stands behind
@@ -99,6 +99,7 @@ class Session {
   void adopt(Draft draft);  // reads it
   std::string kind() const;
   std::string file_and_kind() const;
+  Study titled_study() const;
   void restore(const std::string& file);
   void keep() const;
 
@@ -118,6 +119,8 @@ class Session {
 };
 
 Study study_of(const Draft& draft);
+// What the design of a draft is called: by its file and by what was changed of it.
+std::string title_of(const Draft& draft, const Design& design);
 
 // What leads from one draft to the next, for people: "depth 262 nm; diameter as the file has it".
 std::string step_text(const Draft& from, const Draft& to);

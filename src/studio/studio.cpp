@@ -130,7 +130,8 @@ Json look_json(const Design& design) {
           {"colour_shift", value(look.colour_shift)},
           {"min_hole", json_number(margins.min_hole)},
           {"min_wall", json_number(margins.min_wall)},
-          {"aspect_ratio", json_number(margins.aspect_ratio)}};
+          {"aspect_ratio", json_number(margins.aspect_ratio)},
+          {"of_parts", std::holds_alternative<Stack>(design.texture.kind)}};
 }
 
 // The pinned designs by their numbers. One whose file is gone, or is no design any more, is left

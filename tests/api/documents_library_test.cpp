@@ -287,6 +287,7 @@ TEST(CasesOfTheLibrary, HaveTheNumbersOfTheirDocuments) {
                                                               {"capacitance", p.capacitance}};
     for (const auto& [name, value] : numbers) EXPECT_EQ(of[name].get<double>(), value) << name;
     EXPECT_EQ(of["collapsed"], p.collapsed);
+    EXPECT_EQ(of["breaks_down"], p.breaks_down);
     EXPECT_EQ(of.value("yielded", false), p.yielded);
   };
   expect_point(r.point, json["point"]);

@@ -127,8 +127,63 @@ TEST_F(TablesAndFiles, ATableIsOfOneFinger) {
   };
   EXPECT_EQ(told(row + "Ada,clean\n" + row + "Ada,clean\n"), "");
   EXPECT_EQ(told(row + "Ada,clean\n" + row + "Ben,natural\n"),
-            "3:0: finger: \"Ben\", and \"Ada\" in line 2: a fit is of one finger, so a table "
-            "each\n");
+            "3:0: finger: \"Ben\", and \"Ada\" in line 2: a fit is of one finger, so say which one "
+            "by data_finger in the calibration\n");
+}
+
+// The readings of a lab with several fingers are one table, of which a calibration takes one.
+TEST_F(TablesAndFiles, ACalibrationTakesTheRowsOfItsFinger) {
+  const std::string row = "m3_samples/flat.toml,0.2,35,";
+  write("f.csv", "design,load_N,humidity_percent,F_off_N,F_off_sd_N,finger\n" + row +
+                     "0.1,0.01,Ada\n" + row + "0.2,0.01,Ben\n" + row + "0.11,0.01,Ada\n");
+  const auto of = [&](const std::string& finger) {
+    return read(write(
+        "f.toml", "schema_version = 1\nfinger = \"fingers/reference.toml\"\ndata = \"f.csv\"\n" +
+                      finger + "[parameters]\n\"skin.softening\" = { low = 1.2, high = 4.0 }\n"));
+  };
+  const Calibration ben = of("data_finger = \"Ben\"\n");
+  ASSERT_EQ(ben.data.size(), 1u);
+  EXPECT_EQ(ben.data.front().off, 0.2);
+  EXPECT_EQ(ben.data_notes,
+            std::vector<std::string>{"2 rows of other fingers (\"Ada\") are left out"});
+  EXPECT_EQ(of("data_finger = \"Ada\"\n").data.size(), 2u);
+  EXPECT_EQ(refusal([&] { of("data_finger = \"Cleo\"\n"); }),
+            "1:0: finger: no row with a friction is of \"Cleo\" (data_finger); there are \"Ada\", "
+            "\"Ben\"\n");
+}
+
+// "" in data_finger is no finger.
+TEST_F(TablesAndFiles, AFingerIsNamedOfATableThatSaysFingers) {
+  const auto told = [&](const std::string& keys) {
+    return refusal([&] {
+      read(write("n.toml", "schema_version = 1\nfinger = \"fingers/reference.toml\"\n" + keys +
+                               "[parameters]\n\"skin.softening\" = { low = 1.2, high = 4.0 }\n"));
+    });
+  };
+  write(
+      "n.csv",
+      "design,load_N,humidity_percent,F_off_N,F_off_sd_N\nm3_samples/flat.toml,0.2,35,0.1,0.01\n");
+  const std::string data = "data = \"n.csv\"\n", ada = "data_finger = \"Ada\"\n";
+  EXPECT_EQ(told(data), "");
+  EXPECT_EQ(told(data + ada),
+            "1:0: finger: no such column: write whose finger each row is of, or leave data_finger "
+            "out\n");
+  const std::string alone = told("fit = [\"M1\"]\n" + ada);
+  EXPECT_NE(alone.find("data_finger: says whose rows of a table are taken, but no table is named"),
+            std::string::npos)
+      << alone;
+}
+
+// Ben's touches were driven, Ada's were not: a fit to hers needs nothing that only his have.
+TEST_F(TablesAndFiles, RowsOfOtherFingersNeedNoColumns) {
+  const std::string row = "m3_samples/flat.toml,0.2,35,";
+  const std::string file =
+      write("o.csv", "design,load_N,humidity_percent,voltage_V,F_off_N,F_off_sd_N,F_on_N,finger\n" +
+                         row + "0,0.1,0.01,,Ada\n" + row + "200,0.1,0.01,0.2,Ben\n");
+  EXPECT_EQ(read_friction(file, "Ada").rows.size(), 1u);
+  EXPECT_EQ(refusal([&] { read_friction(file, "Ben"); }),
+            "1:0: F_on_sd: no such column: write F_on_sd_N, one standard deviation of the value\n"
+            "1:0: frequency: no such column: write frequency_Hz\n");
 }
 
 TEST_F(TablesAndFiles, ARowSaysItsStateOrHasThatOfItsDesign) {
@@ -240,6 +295,29 @@ TEST_F(TablesAndFiles, AFrictionAboveTheFilmsBreakdownIsRefusedWithItsLine) {
             "3:0: voltage: 1500 V, but the film breaks down at 500 V: leave F_on out, or state in "
             "flat.toml the strength of a film that withstood it\n");
   EXPECT_EQ(told(row("1500", ",")), "");  // without a voltage nothing breaks
+}
+
+// A constant voltage pulls otherwise than a sine, which the design has: neither stands for the
+// other.
+TEST_F(TablesAndFiles, AConstantVoltageIsOfADesignThatIsDrivenByOne) {
+  write("wave.toml", "schema_version = 1\n");
+  write("dc.toml", "schema_version = 1\n[drive]\nwaveform = \"dc\"\n");
+  const auto told = [&](const std::string& design, const std::string& rest) {
+    write("z.csv", std::string(kHeader) + design + ",20 %," + rest + "\n");
+    return refusal([&] {
+      read(write("z.toml",
+                 "schema_version = 1\nfinger = \"fingers/reference.toml\"\ndata = \"z.csv\"\n"
+                 "[parameters]\n\"skin.softening\" = { low = 1.2, high = 4.0 }\n"));
+    });
+  };
+  EXPECT_TRUE(
+      told("wave.toml", "150,0,0.2,0.05,0.01,0.1,0.02")
+          .starts_with("2:0: frequency: 0 Hz is a constant voltage, and the design is driven "
+                       "at 5000 Hz: "))
+      << told("wave.toml", "150,0,0.2,0.05,0.01,0.1,0.02");
+  EXPECT_EQ(told("wave.toml", "150,5000,0.2,0.05,0.01,0.1,0.02"), "");
+  EXPECT_EQ(told("dc.toml", "150,0,0.2,0.05,0.01,0.1,0.02"), "");
+  EXPECT_EQ(told("wave.toml", "0,0,0.2,0.05,0.01,,"), "");  // no voltage, no frequency
 }
 
 // A design beside the table comes before one of the same name among the designs.

@@ -149,6 +149,7 @@ TEST(DriveByHand, AChirpRisesEvenly) {
   c.drive.control = DriveControl::Current;
   c.drive.current = 3e-3;
   c.source.chirp_time = 0.02;
+  c.source.shunt = 0;  // all of it flows through the body
   EXPECT_NEAR(solve_drive(c).series.peak_current, 3e-3, 1e-5);
 }
 
@@ -207,12 +208,13 @@ TEST(DriveByHand, ASweepIsOfTheSineAtItsFrequencies) {
   EXPECT_EQ(r.carrier.mean_force, respond(r.network, DriveControl::Voltage, 100, 1e3).mean_force);
 }
 
-// The body's current, the source's voltage where one is given, and air in the gap: 327 V in 2 um.
+// The body's current, the source's voltage where one is given, air in the gap, 327 V in 2 um, and
+// the film.
 TEST(DriveByHand, LimitsAreThoseOfTheDriveAndOfTheAir) {
   DriveCase c = layered();
   c.drive.current_limit = 0.25e-3;
   const DriveResult r = solve_drive(c);
-  ASSERT_EQ(r.checks.size(), 2u);
+  ASSERT_EQ(r.checks.size(), 3u);
   EXPECT_EQ(r.checks[0].what, DriveLimit::BodyCurrent);
   EXPECT_EQ(r.checks[0].value, r.series.peak_current);
   EXPECT_EQ(r.checks[0].limit, 0.25e-3);
@@ -221,12 +223,33 @@ TEST(DriveByHand, LimitsAreThoseOfTheDriveAndOfTheAir) {
   EXPECT_EQ(r.checks[1].limit, 327);
   c.drive.source_compliance = 120;
   const DriveResult more = solve_drive(c);
-  ASSERT_EQ(more.checks.size(), 3u);
+  ASSERT_EQ(more.checks.size(), 4u);
   EXPECT_EQ(more.checks[1].what, DriveLimit::SourceVoltage);
   EXPECT_EQ(more.checks[1].value, more.series.peak_source_voltage);
   EXPECT_EQ(more.checks[1].limit, 120);
   EXPECT_TRUE((DriveCheck{DriveLimit::GapVoltage, 2, 2}.passes()));
   EXPECT_FALSE((DriveCheck{DriveLimit::GapVoltage, 2.1, 2}.passes()));
+}
+
+// 1 um of permittivity 2 and 3 um of 6 share the film's voltage evenly: the thin one has half of it
+// over a micrometre, and holds 10 V/um. Eq. electrostatics.9
+TEST(DriveByHand, AFilmIsHeldAgainstTheStrengthOfItsLayers) {
+  DriveCase c = layered();
+  c.surface.dielectric = {{"a", 1e-6, 2, 0, 10e6}, {"none", 0, 4, 0, 1}, {"b", 3e-6, 6, 0, 10e6}};
+  const DriveResult r = solve_drive(c);
+  const DriveCheck film = r.checks.back();
+  EXPECT_EQ(film.what, DriveLimit::FilmVoltage);
+  EXPECT_EQ(film.value, r.series.peak_film_voltage);
+  near(film.limit, 10e6 * 2 * 1e-6);  // strength, permittivity, sum of d/eps
+  EXPECT_NEAR(film.value / respond(r.network, DriveControl::Voltage, 100, 1e3).film_voltage, 1,
+              2e-3);  // sampled peak
+  EXPECT_FALSE(film.passes());
+  // At 0 Hz a layer that conducts leaves all to the one that does not.
+  c.surface.dielectric[0].resistivity = 1e8;
+  c.drive.waveform = Waveform::Dc;
+  near(solve_drive(c).checks.back().limit, 10e6 * 3e-6);
+  c.surface.dielectric.clear();
+  EXPECT_EQ(solve_drive(c).checks.back().what, DriveLimit::GapVoltage);
 }
 
 TEST(DriveByHand, OnsetsAreShearAndFrictionOfWhatSlides) {

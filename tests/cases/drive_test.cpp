@@ -40,10 +40,19 @@ TEST(DriveFile, GivesThePublishedVoltagesOfTheExample) {
 TEST(DriveFile, ChecksNameWhatIsTooMuch) {
   const DriveResult r = solve_drive(
       read_drive_case(kFingertip, {"drive.current=12 mA", "drive.source_compliance=150 V"}));
-  ASSERT_EQ(r.checks.size(), 3u);
+  ASSERT_EQ(r.checks.size(), 4u);
   EXPECT_FALSE(r.checks[0].passes());  // body current
   EXPECT_FALSE(r.checks[1].passes());  // source voltage
   EXPECT_TRUE(r.checks[2].passes());
+  EXPECT_TRUE(r.checks[3].passes());
+  // A sine of 20 kV: across the film some kilovolts, of which it holds 100.
+  const DriveResult high = solve_drive(read_drive_case(
+      kFingertip,
+      {"drive.control=voltage", "drive.waveform=sine", "drive.frequency=5 kHz",
+       "drive.amplitude=20 kV", "tones.frequency=[]", "surface.dielectric.0.strength=100 V/um"}));
+  EXPECT_EQ(high.checks.back().what, DriveLimit::FilmVoltage);
+  EXPECT_NEAR(high.checks.back().limit, 100, 1e-9);
+  EXPECT_GT(high.checks.back().value, 3000);
 }
 
 TEST(DriveFile, OnsetOfSlidingNeedsTheRealArea) {

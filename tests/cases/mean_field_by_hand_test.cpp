@@ -156,7 +156,8 @@ TEST(MeanFieldByHand, EveryLoadOfASweepFlattensTheSkinByItsOwnPressure) {
 TEST(MeanFieldByHand, ASkinYieldsWhereLoadAndPullReachItsHardness) {
   MeanFieldCase c = own_case();
   c.skin.hardness = 1e6;
-  c.sweep = {{0, 80, 1e3, 1e4, 3e4}, {}, {}};
+  for (Dielectric& layer : c.interface.dielectric) layer.strength = 1e12;  // else it breaks down
+  c.sweep = {{0, 80, 1e3, 5e3}, {}, {}};
   const MeanFieldResult r = solve_mean_field(c);
   for (const MeanFieldPoint& p : r.voltage)
     EXPECT_EQ(p.yielded, p.on.pull.pressure >= 1e6) << p.voltage;
@@ -164,6 +165,36 @@ TEST(MeanFieldByHand, ASkinYieldsWhereLoadAndPullReachItsHardness) {
   EXPECT_TRUE(r.voltage.back().yielded);
   c.skin.hardness = 0;
   EXPECT_FALSE(solve_mean_field(c).voltage.back().yielded);
+}
+
+// Two films of 0.25 um of air each, of which the first has the smaller permittivity, 4, and so the
+// larger field; the skin in series takes a share of the voltage, the gap where they touch none.
+// Eq. electrostatics.9
+TEST(MeanFieldByHand, AFilmBreaksDownWhereTheSkinTouchesIt) {
+  MeanFieldCase c = own_case();
+  const auto margin = [&](double voltage, double frequency) {
+    return c.interface.dielectric_margin(150e-6, voltage, frequency);
+  };
+  const double share = 0.5e-6 / std::abs(own_thickness(2e3));
+  near(margin(80, 2e3), 1e9 / (80 * share / (4 * 0.5e-6)));
+  near(margin(80, 0), 1e9 / (80 / (4 * 0.5e-6)));  // a lossy skin conducts
+  c.interface.gap_resistivity = 1e6;
+  near(margin(80, 2e3), 1e9 / (80 * share / (4 * 0.5e-6)));
+  EXPECT_EQ(margin(0, 2e3), kInfinity);
+  c.interface.gap_resistivity = 0;
+  // At 0 Hz it holds up to 2 kV.
+  c.drive.waveform = Waveform::Dc;
+  c.sweep = {{1990, 2010}, {}, {}};
+  const MeanFieldResult r = solve_mean_field(c);
+  EXPECT_TRUE(r.point.sound());
+  EXPECT_FALSE(r.voltage[0].breaks_down());
+  EXPECT_TRUE(r.voltage[1].breaks_down());
+  EXPECT_FALSE(r.voltage[1].sound() || r.voltage[1].yielded);
+  EXPECT_FALSE(mean_field_curves(c).stress.empty());
+  c.drive.amplitude = 2010;
+  EXPECT_TRUE(mean_field_curves(c).stress.empty());
+  c.interface.dielectric.clear();
+  EXPECT_EQ(margin(80, 2e3), kInfinity);
 }
 
 TEST(MeanFieldByHand, CurvesAreThoseOfThePoint) {

@@ -516,6 +516,30 @@ TEST(Evaluate, TheFolderIsTriedFirstAndHoldsThePicturesOfOneRun) {
   EXPECT_TRUE(std::filesystem::exists(place.path() / "out/gap_old.png"));
 }
 
+// Files of a design that its run says not to build are written with that warning.
+TEST(Export, WarnsOfARunThatKeepsItsLimitsNowhere) {
+  const Workplace place;
+  place.write("run/best/design.toml", "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n");
+  place.write("run/run.json",
+              R"({"interrupted": false, "feasible": false, "limits": [{"name": "min_wall", )"
+              R"("asked": "at least 9 um", "text": "3 um", "kept": false}]})");
+  const std::string warning =
+      "run: build none of these: no design of the run keeps every limit; what it shows breaks "
+      "min_wall at least 9 um (it has 3 um)";
+  for (const char* named : {"run", "run/best", "run/best/"}) {
+    const Outcome run =
+        place.run(std::string("export ") + named + " --pixels 64 --format npy --out out");
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.err.find("warning: " + warning), std::string::npos) << run.err;
+    EXPECT_NE(file_text(place.path() / "out/export.json").find('"' + warning), std::string::npos);
+  }
+  const Outcome wafer = place.run("wafer run --no-expected --out wafer");
+  ASSERT_EQ(wafer.status, 0) << wafer.err;
+  EXPECT_NE(wafer.out.find("warning: " + warning), std::string::npos) << wafer.out;
+  EXPECT_NE(place.run("export run --pick knee --out picked").err.find("no front to pick from"),
+            std::string::npos);
+}
+
 TEST(Export, WritesTheFilesThatItNames) {
   const Workplace place;
   const Outcome run =
@@ -669,7 +693,7 @@ TEST(Solve, PerssonAndDriveGiveTheDocumentedJson) {
   ASSERT_EQ(drive.status, 0) << drive.err;
   const auto circuit = nlohmann::json::parse(drive.out);
   EXPECT_EQ(circuit["schema"], 1);
-  EXPECT_EQ(circuit["checks"].size(), 3u);
+  EXPECT_EQ(circuit["checks"].size(), 4u);  // body, source, air, film
   for (const char* file : {"series.csv", "lines.csv", "drive.svg"}) {
     EXPECT_TRUE(std::filesystem::exists(place.path() / "d" / file)) << file;
   }

@@ -256,7 +256,7 @@ TEST(Scans, EveryCommandSaysOnceAndInTheSameWordsWhatItChanged) {
   std::getline(first, line);
   const std::string words = line.substr(line.find(": ") + 2);
   EXPECT_NE(
-      words.find("a plane of 1.15 deg (325.9 nm over the map) was taken away; 1 of 16384 pixels "
+      words.find("a plane of 1.15 deg (325.5 nm over the map) was taken away; 1 of 16384 pixels "
                  "(0.0061 %) replaced by their neighbours, 48"),
       std::string::npos)
       << words;

@@ -428,7 +428,7 @@ TEST(StencilPreconditioner, IsTheStencilOfTheFreePixelsLessHalfItsSum) {
 TEST(DenseFields, StartsFromThePressureScaledToTheLoad) {
   const Grid grid{4, 2, 4e-7, 2e-7};
   const ContactKernel kernel(grid, kSolid);
-  const std::vector<double> height(8, 0.0);
+  const std::vector<double> height{1, 9, 9, 9, 4, 5, 3, 2};
   const auto scaled = [&](std::vector<double> p, double load, double cap) {
     StandardState state;
     state.p = std::move(p);
@@ -446,14 +446,18 @@ TEST(DenseFields, StartsFromThePressureScaledToTheLoad) {
   expect(scaled(p, 15, 7), {0, 8.0 / 3, 16.0 / 3, 7, 0, 0, 0, 0});
   expect(scaled(p, 18, 7), {0, 4, 7, 7, 0, 0, 0, 0});
   expect(scaled(p, 20, 7), {0, 6, 7, 7, 0, 0, 0, 0});
-  // Where all that carried is at the cap every pixel gives.
-  double sum = 0;
-  for (const double v : scaled(p, 26, 7)) {
-    EXPECT_GE(v, 0.5);
-    EXPECT_LE(v, 7);
-    sum += v;
+  // Where all that carried is at the cap the rest goes to the highest of the others.
+  expect(scaled(p, 26, 7), {0, 7, 7, 7, 0, 5, 0, 0});
+  expect(scaled(p, 34, 7), {0, 7, 7, 7, 6.5, 6.5, 0, 0});
+  // What is at the cap stays there when the load changes, and what a rounding left below it joins.
+  const std::vector<double> flows{0, 7, 7 * (1 - 1e-14), 5, 0, 0, 0, 0};
+  expect(scaled(flows, 18, 7), {0, 7, 7, 4, 0, 0, 0, 0});
+  for (const double load : {18.0, 19.0, 20.0}) {
+    const std::vector<double> started = scaled(flows, load, 7);
+    EXPECT_EQ(started[1], 7) << load;
+    EXPECT_EQ(started[2], 7) << load;
   }
-  EXPECT_NEAR(sum, 26, 1e-12);
+  expect(scaled(flows, 9.5, 7), {0, 3.5, 3.5, 2.5, 0, 0, 0, 0});
   expect(scaled(std::vector<double>(8, 0.0), 16, kInfinity), std::vector<double>(8, 2.0));
   expect(scaled(std::vector<double>(8, 0.0), 16, 3), std::vector<double>(8, 2.0));
 }
@@ -530,6 +534,28 @@ TEST(DenseFields, TheLevelLiesBetweenTheCappedAndTheFree) {
   state.p.assign(8, 3);
   f.set_shift(0, 0, 0);
   EXPECT_DOUBLE_EQ(f.shift, 9);
+}
+
+// Eq. contact.19 by hand, in units of a pixel's own yield: one pixel a tenth below the cap and far
+// below the level flows as one at the cap does.
+TEST(DenseFields, TheLevelReturnedIsThatOfElasticPixelsAlone) {
+  const Grid grid{4, 2, 4e-7, 2e-7};
+  const ContactKernel kernel(grid, kSolid);
+  const std::vector<double> height(8, 0.0);
+  StandardState state;
+  state.p = {2.9, 3, 1, 2, 0, 0, 0, 0};
+  const double yield = kernel.self_compliance();
+  const auto returned = [&](double cap) {
+    const StandardProblem problem{kernel, height, {}, 0.5, 8.9, cap};
+    DenseFields f(problem, state);
+    for (const double v : {-5.0, -8.0, 4.1, 3.9, 9.0, 8.0, 9.0, 7.0}) f.gap.push_back(yield * v);
+    f.shift = yield;
+    f.settle_shift();
+    return f.shift;
+  };
+  // 3 + 3 + (1 - 4.1 + level) + (2 - 3.9 + level) = 8.9
+  EXPECT_NEAR(returned(3), 3.95 * yield, 1e-9 * yield);
+  EXPECT_EQ(returned(kInfinity), yield);  // the mean over all that is pressed stays
 }
 
 }  // namespace

@@ -318,5 +318,36 @@ TEST(Hardness, ASoftSurfaceFlowsUntilItsAreaCarriesTheLoad) {
   EXPECT_NEAR(previous, 7e5 / (0.05 * peak), 0.15 * previous);  // nearly all of it flows
 }
 
+// Most of what is pressed is at the cap: the gap hangs on the few pixels that are not.
+TEST(Hardness, AWarmStartHasTheGapOfAColdOne) {
+  const Grid grid{64, 64, 12e-6, 12e-6};
+  const auto kernel = make_contact_kernel(grid, {3e9, 0.4, 0, 3e9, 0.4});
+  const Heightmap skin = random_surface({100e-9, 5e-6, 0.8, 4e-7}, grid, 1, 0);
+  for (const double hardness : {0.15e9, 0.3e9}) {
+    const auto solved = [&](double load, double tolerance, double cap,
+                            const ContactSolution* start) {
+      return solve_contact(*kernel, skin.z, load, {}, {.tolerance = tolerance, .hardness = cap},
+                           start);
+    };
+    const double load = 114e6;
+    const double exact = mean(solved(load, 1e-9, hardness, nullptr).gap);
+    for (const double tolerance : {1e-3, 1e-5}) {
+      const ContactSolution cold = solved(load, tolerance, hardness, nullptr);
+      const ContactSolution again = solved(load, tolerance, hardness, &cold);
+      EXPECT_LT(difference(again.pressure, cold.pressure), 1e-9) << hardness;
+      EXPECT_NEAR(mean(again.gap), mean(cold.gap), 1e-9 * exact) << hardness;
+      for (const double factor : {0.9, 0.99, 1.01, 1.1}) {
+        for (const double softer : {1.0, factor}) {  // of the hardness alike, as skin softens
+          const ContactSolution near = solved(factor * load, tolerance, softer * hardness, nullptr);
+          const ContactSolution warm = solved(load, tolerance, hardness, &near);
+          ASSERT_TRUE(warm.converged()) << warm.reason;
+          EXPECT_NEAR(mean(warm.gap), exact, (tolerance > 1e-4 ? 0.04 : 0.01) * exact)
+              << hardness << " " << tolerance << " " << factor << " " << softer;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace papilla::tests::solvers_test

@@ -133,11 +133,12 @@ TEST(Contradictions, OfTheDriveAreWhatItsSourceDoesNotHold) {
   EXPECT_EQ(with({.amplitude = 200}), "");
   EXPECT_EQ(with({.control = current, .current = 1e-3}), "");
   EXPECT_EQ(with({.control = current, .amplitude = 1, .current = 1e-3}),
-            "drive.amplitude: a voltage, beside control = \"current\": give drive.current, and the "
-            "largest voltage as drive.source_compliance\n");
+            "drive.amplitude: a voltage, beside control = \"current\": set it to 0 V, give "
+            "drive.current, and the largest voltage of the source as drive.source_compliance\n");
+  EXPECT_EQ(with({.control = current, .amplitude = 0, .current = 1e-3}), "");  // what helps
   EXPECT_EQ(with({.amplitude = 200, .current = 1e-3}),
             "drive.current: a current, beside control = \"voltage\": say control = \"current\", or "
-            "give drive.amplitude\n");
+            "set it to 0 mA and give drive.amplitude\n");
   // Of a voltage the limit of a current says nothing here.
   EXPECT_EQ(with({.amplitude = 200, .current_limit = 0}), "");
   EXPECT_EQ(with({.control = current, .current = 5e-3, .current_limit = 5e-3}), "");
@@ -347,7 +348,11 @@ TEST(StudySections, OfVariablesSayWhatABoundIs) {
             "5:27" + expected + ", got 3\n");
   EXPECT_EQ(variable("{ range = [\"1 N\", \"2 N\"], exclude = [], more = 1 }"),
             "5:17" + expected + "\n");
-  EXPECT_EQ(variable("[\"2 N\", \"2 N\"]"), "5:17 design_space.finger.load: expected low < high\n");
+  EXPECT_EQ(
+      variable("[\"2 N\", \"2 N\"]"),
+      "5:17 design_space.finger.load: expected low < high; of one value write { choice = [\"2 "
+      "N\"] }, or state it in the design and leave it out here\n");
+  EXPECT_EQ(variable("[\"3 N\", \"2 N\"]"), "5:17 design_space.finger.load: expected low < high\n");
   const std::string ends =
       " design_space.finger.load.exclude: expected low < from < to < high; where nothing is left "
       "at an end, narrow `range` instead\n";
@@ -429,6 +434,30 @@ TEST(Contradictions, MoreDropletsThanCanBeSettledAreRefusedBeforeTheWork) {
   EXPECT_TRUE(refused(6e-6, 1e5));
   d.model.water = WaterModel::Threshold;
   EXPECT_FALSE(refused(6e-6, 1e5));
+}
+
+// Four particles of 20 um that cover a tenth need 226 um, and there is no period to shorten.
+TEST(Contradictions, MoreDropletsThanCanBeSettledNameWhatMakesThePatchShorter) {
+  Design d;
+  d.environment.relative_humidity = {0.15, 0.75};
+  d.finger.water.drops_per_um3 = 100;
+  const auto ways = [&](const Texture& texture) {
+    d.texture = texture;
+    for (const DesignProblem& problem : design_problems(d)) {
+      if (problem.path == "finger.water.drops_per_um3")
+        return problem.message.substr(problem.message.find("fewer of them"));
+    }
+    return std::string();
+  };
+  EXPECT_EQ(ways({ParticleFilm{.radius = 20e-6, .coverage = 0.1}}),
+            "fewer of them, smaller particles or more coverage by them, or model.water = "
+            "\"threshold\"");
+  EXPECT_EQ(ways({ParticleFilm{.radius = 20e-6, .coverage = 0.2}}), "");
+  EXPECT_EQ(ways({HoleArray{.period = 1e-3, .diameter = 3e-6, .depth = 300e-9}}),
+            "fewer of them, a shorter period, or model.water = \"threshold\"");
+  d.finger.water.drops_per_um3 = 1e5;
+  EXPECT_EQ(ways({HoleArray{.period = 6e-6, .diameter = 3e-6, .depth = 300e-9}}),
+            "fewer of them, or model.water = \"threshold\"");
 }
 
 }  // namespace

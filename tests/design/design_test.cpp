@@ -260,12 +260,11 @@ TEST(Study, ProblemsAcrossFieldsAreLocated) {
   EXPECT_EQ(problems_of(head + "[finger]\nload = \"0 N\"\n"),
             ":3:8: finger.load: expected a force above 0 N");
   EXPECT_EQ(problems_of(head + "[drive]\ncontrol = \"current\"\namplitude = \"200 V\"\n"),
-            ":4:13: drive.amplitude: a voltage, beside control = \"current\": give drive.current, "
-            "and the "
-            "largest voltage as drive.source_compliance");
+            ":4:13: drive.amplitude: a voltage, beside control = \"current\": set it to 0 V, give "
+            "drive.current, and the largest voltage of the source as drive.source_compliance");
   EXPECT_EQ(problems_of(head + "[drive]\ncurrent = \"1 mA\"\n"),
             ":3:11: drive.current: a current, beside control = \"voltage\": say control = "
-            "\"current\", or give drive.amplitude");
+            "\"current\", or set it to 0 mA and give drive.amplitude");
   EXPECT_EQ(problems_of(head + "[drive]\ncontrol = \"current\"\ncurrent = \"6 mA\"\n"),
             ":4:11: drive.current: 6 mA is above drive.current_limit, 5 mA");
   EXPECT_EQ(
@@ -324,8 +323,8 @@ TEST(Study, AnAmplitudeAboveItsSourceIsSaidOfAVoltageAlone) {
   EXPECT_EQ(problems_of(head + volts + "\"200 V\"\n"), "");
   EXPECT_EQ(problems_of(head + volts + "\"0 V\"\n"), "");  // not given
   EXPECT_EQ(problems_of(head + "control = \"current\"\n" + volts + "\"150 V\"\n"),
-            ":4:13: drive.amplitude: a voltage, beside control = \"current\": give drive.current, "
-            "and the largest voltage as drive.source_compliance");
+            ":4:13: drive.amplitude: a voltage, beside control = \"current\": set it to 0 V, give "
+            "drive.current, and the largest voltage of the source as drive.source_compliance");
 }
 
 TEST(Study, ScenariosHaveNamesWeightsAndSettings) {

@@ -145,6 +145,11 @@ TEST(VoltageFor, TheStatedEdgeRadiusLowersTheLimit) {
   scene.surface.electrode_edge_radius = 500e-9;
   EXPECT_NEAR(amplitude_limit(scene, Texture{HoleArray{}}), 500 * std::log(2), 1e-9);
   EXPECT_DOUBLE_EQ(amplitude_limit(scene, Texture{Flat{}}), 500);
+  // Etched into a planar film, the texture leaves the electrode flat.
+  scene.surface.process = FilmProcess::Planar;
+  const double planar = amplitude_limit(scene, Texture{HoleArray{}});
+  scene.surface.electrode_edge_radius = 0;
+  EXPECT_DOUBLE_EQ(planar, amplitude_limit(scene, Texture{HoleArray{}}));
 }
 
 TEST(VoltageFor, IsAMetric) {

@@ -77,8 +77,6 @@ TEST(Period, OfALayoutIsTheNearestNanometreAndSaidToBe) {
       2001e-9, 1e-18);
 }
 
-// A quarter of the smallest hole or wall a pixel, else a warning that says how many would do; half
-// of it, else no mask.
 TEST(Repeat, SaysWhichFilesHoldTheMapOnce) {
   ExportOptions options = options_of("exr", 64, 12e-6);
   const auto warnings = [&] { return Drawn(Texture{holes_of(6e-6, 3e-6)}, options).out.warnings; };
@@ -94,6 +92,119 @@ TEST(Repeat, SaysWhichFilesHoldTheMapOnce) {
   EXPECT_EQ(warnings(), std::vector<std::string>{});
 }
 
+TEST(Repeat, IsKnownOfTheExrAlone) {
+  ExportOptions options = options_of("exr", 64, 12e-6);
+  options.repeat = 4;
+  EXPECT_EQ(Drawn(Texture{holes_of(6e-6, 3e-6)}, options).out.repeat, 4);
+  options.formats = {"gsf"};
+  EXPECT_EQ(Drawn(Texture{holes_of(6e-6, 3e-6)}, options).out.repeat, 1);
+}
+
+// Half of 450 nm lies below all of the shallow holes, which stand in no edge of it; the first of
+// three levels, 75 nm, does not.
+TEST(Edges, APartOfAStackThatTheyDoNotFollowIsSaid) {
+  Stack stack;
+  stack.parts = {Texture{HoleArray{.period = 6e-6, .diameter = 3e-6, .depth = 350e-9}},
+                 Texture{HoleArray{.period = 2e-6, .diameter = 0.8e-6, .depth = 100e-9}}};
+  ExportOptions options = options_of("mask", 120, 12e-6);
+  options.formats = {"mask", "gds"};
+  const auto warnings = [&] { return Drawn(Texture{stack}, options).out.warnings; };
+  EXPECT_EQ(warnings(), std::vector<std::string>{
+                            "part 2 of the stack (hole_array, 100 nm) is not drawn in mask and "
+                            "gds, whose edges are 225 nm, half of the depth, below the highest "
+                            "place: --levels 3 draws it in a layout, `papilla wafer` draws a mask "
+                            "for each part"});
+  options.formats = {"gds"}, options.levels = 3;
+  EXPECT_EQ(warnings(), std::vector<std::string>{});
+  options.levels = 1;
+  // Half of 650 nm lies below all of the holes of 300 nm.
+  std::get<HoleArray>(stack.parts[0].kind).depth = 300e-9;
+  std::get<HoleArray>(stack.parts[1].kind).depth = 350e-9;
+  const std::vector<std::string> other = warnings();
+  ASSERT_EQ(other.size(), 1u);
+  EXPECT_TRUE(
+      other[0].starts_with("part 1 of the stack (hole_array, 300 nm) is drawn on 4 % of "
+                           "its area only in gds"))
+      << other[0];
+  // Of equal depths each floor lies on the level, half of both: what is drawn is where they
+  // overlap.
+  std::get<HoleArray>(stack.parts[1].kind).depth = 300e-9;
+  EXPECT_EQ(
+      warnings(),
+      (std::vector<std::string>{
+          "part 1 of the stack (hole_array, 300 nm) is drawn on 8 % of its area only in gds, "
+          "whose edges are 300 nm, half of the depth, below the highest place: --levels 2 "
+          "draws it in a layout, `papilla wafer` draws a mask for each part",
+          "part 2 of the stack (hole_array, 300 nm) is drawn on 11 % of its area only in gds, "
+          "whose edges are 300 nm, half of the depth, below the highest place: --levels 2 "
+          "draws it in a layout, `papilla wafer` draws a mask for each part"}));
+  // Of holes in holes the shallow ones are drawn where they lie in others. Of two levels one draws
+  // these and leaves out the inner ones, three draw all.
+  stack.parts = {Texture{HoleArray{.period = 6e-6, .diameter = 2e-6, .depth = 250e-9}},
+                 Texture{HoleArray{.period = 6e-6, .diameter = 4e-6, .depth = 200e-9}},
+                 Texture{HoleArray{.period = 2e-6, .diameter = 1e-6, .depth = 200e-9}}};
+  const std::vector<std::string> nested = warnings();
+  ASSERT_EQ(nested.size(), 2u);
+  EXPECT_TRUE(nested[0].starts_with("part 2 of the stack (hole_array, 200 nm) is drawn on 30 % of"))
+      << nested[0];
+  EXPECT_TRUE(nested[1].starts_with("part 3 of the stack (hole_array, 200 nm) is drawn on 21 % of"))
+      << nested[1];
+  EXPECT_NE(nested[0].find("--levels 3 draws it"), std::string::npos) << nested[0];
+  options.formats = {"exr"};
+  EXPECT_EQ(warnings(), std::vector<std::string>{});
+}
+
+// No mask of its own makes pillars beside pillars: what the one leaves standing the other etches.
+TEST(Edges, AMaskForEachPartIsNamedWhereAWaferDrawsThem) {
+  Stack stack;
+  stack.parts = {Texture{PillarArray{.period = 6e-6, .diameter = 3e-6, .height = 350e-9}},
+                 Texture{PillarArray{.period = 2e-6, .diameter = 0.8e-6, .height = 100e-9}}};
+  const std::string said = Drawn(Texture{stack}, options_of("mask", 120, 12e-6)).warning();
+  EXPECT_TRUE(said.starts_with("part 2 of the stack (pillar_array, 100 nm) is ")) << said;
+  EXPECT_EQ(said.find("papilla wafer"), std::string::npos) << said;
+}
+
+// A large map is judged by one of its periods: it says what a small one does.
+TEST(Edges, OfManyPeriodsAreJudgedAsOfOne) {
+  Stack stack;
+  stack.parts = {Texture{HoleArray{.period = 6e-6, .diameter = 3e-6, .depth = 350e-9}},
+                 Texture{HoleArray{.period = 2e-6, .diameter = 0.8e-6, .depth = 100e-9}}};
+  const Drawn large(Texture{stack}, options_of("mask", 1024, 24e-6));
+  ASSERT_EQ(large.out.warnings.size(), 1u) << large.warning();
+  EXPECT_TRUE(
+      large.warning().starts_with("part 2 of the stack (hole_array, 100 nm) is not drawn in "
+                                  "mask, whose edges are 225 nm"))
+      << large.warning();
+}
+
+// Walls of 45 deg: 600 nm deep, they part the edges at the land and half-way down by 300 nm a side.
+TEST(Edges, OfAMaskAndALayoutThatAreAtOtherPlacesAreSaid) {
+  ExportOptions options = options_of("mask", 240, 12e-6);
+  options.formats = {"mask", "gds"};
+  const auto warnings = [&](double angle) {
+    return Drawn(Texture{HoleArray{.period = 6e-6,
+                                   .diameter = 3e-6,
+                                   .depth = 600e-9,
+                                   .wall_angle = angle * kPi / 180,
+                                   .edge_radius = 0}},
+                 options)
+        .out.warnings;
+  };
+  EXPECT_EQ(warnings(90), std::vector<std::string>{});
+  const std::vector<std::string> slanted = warnings(45);
+  ASSERT_EQ(slanted.size(), 1u);
+  const std::string begin = "mask and gds have other widths: holes are ";
+  ASSERT_TRUE(slanted[0].starts_with(begin)) << slanted[0];
+  EXPECT_NEAR(std::stod(slanted[0].substr(begin.size())), 2.4, 0.02);
+  EXPECT_TRUE(slanted[0].ends_with(
+      "wide at half their depth, where mask is drawn, and 3 um at the land, where gds is"))
+      << slanted[0];
+  options.formats = {"gds"};
+  EXPECT_EQ(warnings(45), std::vector<std::string>{});
+}
+
+// A quarter of the smallest hole or wall a pixel, else a warning that says how many would do; half
+// of it, else no mask.
 TEST(Pixels, AreFourAcrossTheSmallestFeatureOrAreSaidToBeTooFew) {
   const Texture holes{holes_of(6e-6, 5.19e-6)};  // walls of 810 nm
   for (const auto& [pixels, warned] : {std::pair{60, false}, {58, true}}) {
@@ -267,7 +378,7 @@ TEST_F(Changed, PicturesAreComparedLevelByLevel) {
     h.grid.ny = 32, h.grid.ly *= 0.5;
     h.z.resize(h.grid.size());
   });
-  EXPECT_TRUE(has(why, "512 x 256 pixels in 3 channels, the design's 512 x 512 in 3")) << why;
+  EXPECT_TRUE(has(why, "512 x 316 pixels in 3 channels, the design's 512 x 572 in 3")) << why;
 }
 
 // By volume where the depth is another too: holes a tenth wider and a fifth deeper.
@@ -356,7 +467,7 @@ TEST_F(Changed, PicturesSayHowManyLevelsAreOffAndByHowMuch) {
              {{0, 1e-6}, {0, 255}});
   const FileVerdict grey = verify_folder(folder_.path(), png).at(0);
   ASSERT_EQ(grey.faults.size(), 1u);
-  EXPECT_EQ(grey.faults[0], "512 x 512 pixels in 1 channels, the design's 512 x 512 in 3");
+  EXPECT_EQ(grey.faults[0], "512 x 512 pixels in 1 channels, the design's 512 x 572 in 3");
 }
 
 TEST(Differences, AreShownToTheDigitWhereTheyAre) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/constants.h"
+#include "base/files.h"
 #include "fabricate/checks.h"
 #include "fabricate/formats.h"
 #include "geometry/io/files.h"
@@ -254,6 +255,45 @@ TEST(JudgedHeights, WhatAFileDoesNotSayOrSaysOtherwiseIsNamed) {
   EXPECT_EQ(said[2], "its polarity is not said, the export's is white-high");
   EXPECT_EQ(check_gsf(source, npy),
             (Faults{"its width is not in the file", "its height is not in the file"}));
+}
+
+// ImageJ knows sides and heights by other lines of the description than our own reader.
+TEST(JudgedHeights, WhatImageJTakesOfATiffIsTheDesigns) {
+  Judge judge{with_deep(20)};
+  const std::function<void(double)> quiet;
+  const FileInfo info;
+  for (const bool deep : {false, true}) {
+    judge.options.polarity = deep ? Polarity::WhiteDeep : Polarity::WhiteHigh;
+    for (const char* format : {"tiff", "mask", "tiff32"}) {
+      const ExportFormat& kind = find_export_format(format);
+      const std::string path = temporary(kind.file);
+      const ExportSource source{judge.design, judge.texture, judge.options, info, quiet};
+      Export out;
+      kind.write(source, path, out);
+      EXPECT_EQ(kind.check(source, path), Faults{}) << format;
+      const std::string bytes = read_bytes(path);
+      const auto changed = [&](const std::string& from, const std::string& to) {
+        std::string other = bytes;
+        // Of the file's own directory, the last one: libtiff leaves a first that nothing points to.
+        const std::size_t at = other.rfind(from);
+        if (at != std::string::npos) other.replace(at, from.size(), to);
+        write_bytes(path, other);
+        return kind.check(source, path);
+      };
+      const std::string said = "its description says to ImageJ ";
+      EXPECT_EQ(changed("\nunit=cm", "\nunit=mm"), Faults{said + "unit=mm, and unit=cm is due"});
+      EXPECT_EQ(changed("vunit=um", "vunit=nm"), Faults{said + "vunit=nm, and vunit=um is due"});
+      EXPECT_EQ(changed("vunit=um", "wunit=um"), Faults{said + "no vunit, and vunit=um is due"});
+      if (kind.name == std::string("tiff32")) continue;
+      EXPECT_EQ(changed("cf=0", "cf=1"), Faults{said + "cf=1, and cf=0 is due"});
+      const std::string zero = deep ? "c0=0.03" : "c0=-0.07", other = deep ? "c0=0.04" : "c0=-0.06";
+      EXPECT_EQ(changed(zero, other), Faults{said + other + ", and " + zero + " is due"});
+      // 0.1 um in 65535 levels.
+      EXPECT_EQ(changed("c1=", "d1="),
+                Faults{said + "no c1, and c1=" + (deep ? "-" : "") + "1.52590219e-06 is due"});
+      EXPECT_EQ(changed("52590219e-06", "52590319e-06").size(), 1u);
+    }
+  }
 }
 
 // Of three by three tiles the pixel of one is another: the place is that in the whole file.

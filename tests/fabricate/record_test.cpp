@@ -35,6 +35,7 @@ ExportRecord whole_record() {
                {"dose", "dose.png"},
                {"design", "design.toml"}};
   out.limits = {read_constraint("min_hole", 0.4e-6), read_constraint("min_wall", 0.3e-6)};
+  out.version = "0.2.9";
   return out;
 }
 
@@ -102,10 +103,19 @@ TEST_F(Record, ReadsBackAsItWasWritten) {
 
 TEST_F(Record, EachMemberIsNeeded) {
   for (const auto& [key, value] : good_.items()) {
+    if (key == "version") continue;  // 0.2.2 wrote none
     Json without = good_;
     without.erase(key);
     EXPECT_EQ(refused(without), "made_from." + key);
   }
+}
+
+TEST_F(Record, NamesTheVersionThatMadeTheFiles) {
+  EXPECT_EQ(read(good_).version, whole_record().version);
+  Json earlier = good_;
+  earlier.erase("version");
+  EXPECT_EQ(read(earlier).version, "");
+  EXPECT_EQ(refused("version", 2), "made_from.version");
 }
 
 TEST_F(Record, NumbersHaveTheirRanges) {

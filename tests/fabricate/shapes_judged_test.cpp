@@ -82,8 +82,9 @@ TEST(JudgedLayouts, ALayerSaysWhetherItsPolygonsAreDeepOrHigh) {
             (std::vector<LayoutLayer>{
                 {1, "HOLES_DEEP",
                  "tone: polygons are deep, what is around them is high; kind: holes; depth 350 nm; "
-                 "diameter 3 um; pitch 6 um, square"}}));
+                 "diameter 3 um at the land; pitch 6 um, square"}}));
   EXPECT_EQ(high.layers[0].name, "PILLARS_HIGH");
+  EXPECT_NE(high.layers[0].label.find("diameter 3 um at the top"), std::string::npos);
   EXPECT_EQ(pillars.of(high), Faults{});
   const Faults inverted = pillars.of(deep);
   ASSERT_EQ(inverted.size(), 1u);
@@ -320,6 +321,22 @@ TEST_F(JudgedBody, ItsNormalsStandOnTheTrianglesOutwards) {
   EXPECT_EQ(with_normal(5, -1), turned);
   EXPECT_EQ(with_normal(100, 0), turned);
   EXPECT_EQ(with_normal(100, 1), Faults{});
+}
+
+// The two triangles of a pixel's base again in place of those of the next pixel: as many triangles,
+// of the same volume, with a hole in the base.
+TEST_F(JudgedBody, OfTrianglesThatCloseNoBodyTheOpenEdgesAreCounted) {
+  const std::size_t pixel = 4 * 40;
+  const auto at = [&](std::size_t triangle) { return 84 + 50 * triangle; };
+  std::string bytes = bytes_;
+  bytes.replace(at(pixel + 6), 100, bytes_.substr(at(pixel + 2), 100));
+  write_bytes(path_, bytes);
+  // Three round the hole, three round the doubled square, and twice the edge between both.
+  const std::string open =
+      " edges of triangles are those of no other one in the opposite direction";
+  Faults faults = judged();
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_TRUE(faults[0].starts_with("8" + open)) << faults[0];
 }
 
 TEST_F(JudgedBody, CornersThatAreNoNumbersAreCounted) {

@@ -190,6 +190,17 @@ TEST(Verify, NeedsNoBeliefOfTheFinger) {
     EXPECT_EQ(file.state, FileState::Sound) << file.path;
 }
 
+// What is wrong with a design stands in the record of its files, for who has them alone.
+TEST(Verify, HasTheWarningsOfTheDesignInTheRecord) {
+  const Workplace place;
+  ExportOptions options;
+  options.pixels = 32, options.formats = {"npy"};
+  const std::string folder = (place.path() / "f").string();
+  const Export made = export_with_record(Study{}, options, folder, {}, {}, {"it breaks a limit"});
+  EXPECT_EQ(made.warnings.front(), "it breaks a limit");
+  EXPECT_NE(read_bytes(folder + "/" + kRecordName).find("it breaks a limit"), std::string::npos);
+}
+
 // The design beside the files of a run keeps its belief, which is no other design.
 TEST(Verify, TakesADesignWithItsBeliefForTheOneOfTheRecord) {
   const Workplace place;
@@ -204,6 +215,29 @@ TEST(Verify, TakesADesignWithItsBeliefForTheOneOfTheRecord) {
   EXPECT_EQ(verify_files(record, {}).at(0).state, FileState::Sound);
   record.design.finger.belief = study.design.finger.belief;  // as earlier versions wrote it
   EXPECT_EQ(verify_files(record, {}).at(0).state, FileState::Sound);
+}
+
+// A picture of other bytes by another version is no fault of the folder: how to mend it is said.
+TEST(Verify, NamesAnotherVersionThatMadeAFileThatDiffers) {
+  Study study;
+  study.design.texture = Texture{HoleArray{.period = 6e-6, .diameter = 3e-6}};
+  ExportOptions options;
+  options.formats = {"png"};
+  options.pixels = 64;
+  Export made = export_design(study.design, options, temporary("versions"));
+  ExportRecord record = record_of(study, options, made);
+  record.version = "0.2.2";
+  EXPECT_EQ(verify_files(record, made).at(0).faults, std::vector<std::string>{});
+  made.heightmap.z[0] -= 1e-6;
+  const std::vector<std::string> other = verify_files(record, made).at(0).faults;
+  ASSERT_EQ(other.size(), 2u);
+  EXPECT_TRUE(other[1].starts_with("it was made by papilla 0.2.2, and this is")) << other[1];
+  record.version.clear();
+  EXPECT_TRUE(verify_files(record, made)
+                  .at(0)
+                  .faults.at(1)
+                  .starts_with("it was made by papilla 0.2.2 or an earlier one"));
+  EXPECT_EQ(verify_files(record_of(study, options, made), made).at(0).faults.size(), 1u);
 }
 
 TEST(Verify, RefusesAFolderWithoutARecord) {

@@ -309,6 +309,32 @@ TEST(DrivePatch, AClosedGapEndsTheSearchForAnEquilibrium) {
   EXPECT_EQ(shut.costs.contact_solves, 2);
 }
 
+// A smooth, stiff plate whose load closes all but one pixel in sixteen, or in sixty-four, of the
+// glass: what the load has closed is no pull-in under a drive of 20 V.
+TEST(DrivePatch, WhatTheLoadAloneClosesIsNoPullIn) {
+  Scene scene = driven(20);
+  scene.model.coupling = Coupling::Equilibrium;
+  scene.finger.water.volume = {0, 0, 0, 0};
+  Patch patch(scene, Estimator::Area);
+  const LayeredSolid stiff{3e9, 0.4, 0, 3e9, 0.4};
+  const auto kernel = make_contact_kernel(patch.plan.grid, stiff);
+  patch.problem.kernel = kernel.get();
+  for (const int every : {4, 8}) {
+    for (std::size_t i = 0; i < patch.height.size(); ++i) {
+      const int x = static_cast<int>(i) % 32, y = static_cast<int>(i) / 32;
+      patch.height[i] = x % every == 0 && y % every == 0 ? -350e-9 : 0;
+    }
+    patch.problem.height = patch.height;
+    PatchStates states;
+    const PatchResult r = solve_patch(patch.problem, patch.plan, patch.fidelity, states);
+    EXPECT_TRUE(r.status.sound()) << text(r.status);
+    EXPECT_GT(r.pull, 0);
+    const auto touching = std::count_if(states.on.pressure.begin(), states.on.pressure.end(),
+                                        [](double p) { return p > 0; });
+    EXPECT_GT(touching, 0.93 * 1024);
+  }
+}
+
 // Water three hundred times as strong closes the gap whatever the drive.
 TEST(DrivePatch, SaysWhereAGapClosesWithoutTheDrive) {
   Scene scene = driven(10);

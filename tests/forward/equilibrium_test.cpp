@@ -31,6 +31,18 @@ Found sought(double load, const std::function<double(double)>& law, double slope
   return out;
 }
 
+// Nine tenths of what the load leaves open, where that is a twentieth of the places: 48 of 1024 are
+// less, and closing all of them is no pull-in.
+TEST(EquilibriumSearch, AGapIsPulledShutWhereTheLoadLeavesATwentiethOpen) {
+  EXPECT_FALSE(forward::is_pulled_shut(1024, 976, 1024));
+  EXPECT_TRUE(forward::is_pulled_shut(1000, 950, 1000));
+  EXPECT_FALSE(forward::is_pulled_shut(1000, 951, 1000));
+  EXPECT_TRUE(forward::is_pulled_shut(1000, 900, 991));
+  EXPECT_FALSE(forward::is_pulled_shut(1000, 900, 990));
+  EXPECT_TRUE(forward::is_pulled_shut(1000, 0, 901));
+  EXPECT_FALSE(forward::is_pulled_shut(1000, 0, 900));
+}
+
 TEST(EquilibriumSearch, SolvesALinearLawInTwoStates) {
   for (const double slope : {-0.5, 0.2, 0.6}) {
     const Found f = sought(

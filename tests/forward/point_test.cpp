@@ -268,6 +268,20 @@ TEST(Point, TroubleIsTheFirstPatchesAPullInOrContactOfMoreThanThePatch) {
   EXPECT_EQ(c.point(1000).status.trouble, Trouble::ClosedPullIn);
 }
 
+// Load times a coefficient, whatever touches.
+TEST(Point, FrictionByACoefficientHasNoFullContact) {
+  Case c;
+  c.scene.touch.coefficient = 0.3;
+  const ResponsePoint open = c.point(), full = c.point(1000);
+  EXPECT_TRUE(full.status.sound()) << text(full.status);
+  EXPECT_EQ(full.friction_on.value, open.friction_on.value);
+  c.fidelity.estimator = Estimator::Area;
+  c.plan.traction_solves = true;
+  EXPECT_TRUE(c.point(1000).status.sound());
+  c.scene.touch.coefficient = 0;
+  EXPECT_EQ(c.point(1000).status.trouble, Trouble::FullContact);
+}
+
 TEST(Point, WithoutADriveThereIsNoModulation) {
   Case c;
   c.plan.field = false;

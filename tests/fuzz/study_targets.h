@@ -109,7 +109,7 @@ inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
            require_finite(v, "a number of the reading");
        }});
 
-  report::Receipts receipts{"0.1.0", "knee", false, "sum", {}};
+  report::Receipts receipts{"0.1.0", "knee", false, "sum", "study", {}};
   receipts.list.push_back({"r01",
                            {"gain", 0.031, "mN", {0.012, ""}, {{}, "not known"}, {Stage::Confirm}},
                            "0.031",

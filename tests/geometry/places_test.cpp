@@ -119,6 +119,61 @@ TEST(PatchGrid, HoldsWholeCellsNearTheWantedSideInCountsThatHalve) {
             (Grid{64, 64, 24e-6, 24e-6}));
 }
 
+// The same particles on a longer patch: what a search over the coverage sees has no step.
+TEST(Particles, OfAThinFilmKeepTheCoverageOnALongerPatch) {
+  std::vector<double> radii;
+  for (const double coverage : {0.006, 0.01, 0.03, 0.1}) {
+    const ParticleFilm film{.coverage = coverage};
+    const Grid patch = patch_grid(Texture{film}, 64);
+    const std::vector<Particle> all = place_particles(film, patch);
+    ASSERT_EQ(all.size(), 4u) << coverage;
+    double covered = 0;
+    std::vector<double> own;
+    for (const Particle& p : all) {
+      covered += kPi * square(p.radius);
+      own.push_back(p.radius);
+    }
+    EXPECT_NEAR(covered, coverage * patch.area(), 1e-9 * covered) << coverage;
+    if (radii.empty()) radii = own;
+    EXPECT_EQ(own, radii) << coverage;
+  }
+  EXPECT_EQ(patch_grid(Texture{ParticleFilm{.coverage = 0.3}}, 64).lx, 12e-6);
+  EXPECT_EQ(patch_grid(Texture{ParticleFilm{.radius = 9e-6, .coverage = 0}}, 64).lx, 12e-6);
+}
+
+// Beside a lattice too, in whole periods: on 12 um one particle of 1.5 um would be 5 % of it, not
+// the 1 % asked for.
+TEST(Particles, OfAThinFilmBesideALatticeHaveAPatchThatHoldsThem) {
+  const ParticleFilm film{.coverage = 0.01};
+  const Texture holes{HoleArray{.period = 6e-6, .diameter = 3e-6}};
+  const double least = facts(Texture{film}).free_patch.least;
+  const double side = 6e-6 * std::ceil(least / 6e-6);
+  const Texture both{Stack{.parts = {holes, Texture{film}}}};
+  for (const Grid& patch : {simulated_patch(both, 64), patch_grid(both, 64)}) {
+    EXPECT_NEAR(patch.lx, side, 1e-12);
+    EXPECT_NEAR(patch.ly, side, 1e-12);
+    double covered = 0;
+    for (const Particle& p : place_particles(film, patch)) covered += kPi * square(p.radius);
+    EXPECT_NEAR(covered, 0.01 * patch.area(), 0.5 * kPi * square(1.7 * film.radius));
+  }
+  EXPECT_EQ(simulated_patch(Texture{Stack{.parts = {holes}}}, 64), simulated_patch(holes, 64));
+  const Texture none{Stack{.parts = {holes, Texture{ParticleFilm{.radius = 9e-6, .coverage = 0}}}}};
+  EXPECT_EQ(simulated_patch(none, 64), simulated_patch(holes, 64));
+}
+
+TEST(Particles, OfAFilmTooThinForAPatchAreRefused) {
+  EXPECT_TRUE(problems(Texture{ParticleFilm{.coverage = 0}}).empty());
+  EXPECT_TRUE(problems(Texture{ParticleFilm{.coverage = 0.006}}).empty());
+  EXPECT_TRUE(problems(Texture{ParticleFilm{.radius = 0.05e-6, .coverage = 0.001}}).empty());
+  const auto said = problems(Texture{ParticleFilm{.radius_spread = 0, .coverage = 0.001}});
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said.front().first, "coverage");
+  EXPECT_EQ(said.front().second,
+            "so few particles that 4 of them need a patch of 168 um, which is more than the 75 um "
+            "that are simulated; use at least 0.53 %, or 0 % for none");
+  EXPECT_TRUE(problems(Texture{ParticleFilm{.radius_spread = 0, .coverage = 0.0053}}).empty());
+}
+
 TEST(Particles, OfAClusterTouchOneAnotherAndStayOnTheirPatch) {
   const ParticleFilm film{
       .radius = 0.5e-6, .radius_spread = 0.1, .coverage = 0.1, .embedding = 0.7, .clustering = 1};

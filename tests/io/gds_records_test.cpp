@@ -158,6 +158,15 @@ TEST(GdsRecords, ThatNoLayoutOfOursHasAreNamed) {
   // Three points and the first again at least.
   EXPECT_EQ(said(kHead + cell("A", layer + type + record(0x1003, longs({0, 0, 1, 0, 0, 0})) + end)),
             "a record 0x1003 where 0x1003 is due");
+  const std::string points = record(0x1003, longs({0, 0, 9, 0, 9, 9, 0, 0}));
+  EXPECT_EQ(said(kHead + cell("A", layer + type + points + end) + kEnd), "");
+  EXPECT_EQ(said(kHead + cell("A", layer + record(0x0E02, shorts({7})) + points + end) + kEnd),
+            "a polygon of data type 7, of a layout of ours 0");
+  for (const std::vector<long>& last : {std::vector<long>{1, 0}, {0, -1}}) {
+    const std::string open = record(0x1003, longs({0, 0, 9, 0, 9, 9, last[0], last[1]}));
+    EXPECT_EQ(said(kHead + cell("A", layer + type + open + end) + kEnd),
+              "a polygon that is open: its last point is not its first");
+  }
   const std::string placed = record(0x0A00) + record(0x1206, "B");
   EXPECT_EQ(said(kHead + cell("A", placed + record(0x1003, longs({0, 0})) + end) + kEnd),
             "a reference to \"B\", which is no cell");

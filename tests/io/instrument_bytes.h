@@ -55,7 +55,8 @@ inline std::string gwy_field(const Heightmap& h, double scale, const std::string
 struct GwyMap {
   std::string title, unit;
   const Heightmap* map;
-  double scale = 1;  // of the unit
+  double scale = 1;                 // of the unit
+  const Heightmap* mask = nullptr;  // 1: marked
 };
 // With what else such files hold: flags, numbers, lists, other objects.
 inline std::string gwy_bytes(const std::vector<GwyMap>& maps) {
@@ -72,6 +73,7 @@ inline std::string gwy_bytes(const std::vector<GwyMap>& maps) {
     const std::string number = "/" + std::to_string(k) + "/";
     parts += gwy_part(number + "data", 'o', gwy_field(*maps[k].map, maps[k].scale, maps[k].unit)) +
              gwy_part(number + "data/title", 's', maps[k].title + '\0');
+    if (maps[k].mask) parts += gwy_part(number + "mask", 'o', gwy_field(*maps[k].mask, 1, ""));
   }
   return "GWYP" + gwy_object("GwyContainer", parts);
 }

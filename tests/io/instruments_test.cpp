@@ -49,6 +49,55 @@ TEST(Gwy, IsReadToTheLastDigitInAnyUnit) {
   expect_same(read_heightmap(written("nm.gwy", gwy_bytes({{"Height", "nm", &h, 1e-9}}))), h, 1e-20);
 }
 
+// Whether it marks what was not measured, or grains, is for the user to say.
+TEST(Gwy, APixelThatAMaskMarksIsAHeightUntilItIsToBeFilled) {
+  const Heightmap h = slope_and_bumps();
+  Heightmap mask{h.grid, std::vector<double>(h.z.size(), 0.0)};
+  mask(2, 1) = mask(3, 1) = 1;
+  const std::string path =
+      written("mask.gwy", gwy_bytes({{.title = "Height", .unit = "m", .map = &h, .mask = &mask}}));
+  expect_same(read_heightmap(path), h, 1e-20);
+  const Heightmap kept = read_heightmap(path, 0, NotNumbers::Kept);
+  for (std::size_t i = 0; i < h.z.size(); ++i)
+    ASSERT_EQ(std::isnan(kept.z[i]), mask.z[i] == 1) << i;
+  const Scan heights = read_scan({path, 0, false, true}), filled = read_scan({path, 0, true, true});
+  EXPECT_EQ(heights.changes.filled, 0u);
+  EXPECT_NE(text(path, heights.changes)
+                .find("the mask of the file marks 2 of 54 pixels (3.7 %), which are taken as "
+                      "heights (--fill, texture.fill = true take them as not measured"),
+            std::string::npos)
+      << text(path, heights.changes);
+  EXPECT_EQ(filled.changes.filled, 2u);
+  EXPECT_NE(text(path, filled.changes)
+                .find("2 of 54 pixels (3.7 %) were no numbers or marked by the mask of the file "
+                      "and were filled"),
+            std::string::npos)
+      << text(path, filled.changes);
+}
+
+// Grains on a third of a map: it cannot be filled, and it need not be.
+TEST(Gwy, AMaskOfMoreThanAFifthIsAdvisedToBeLeftAsHeights) {
+  const Heightmap h = slope_and_bumps();
+  Heightmap mask{h.grid, std::vector<double>(h.z.size(), 0.0)};
+  for (std::size_t i = 0; i < 18; ++i) mask.z[i] = 1;
+  const std::string path = written(
+      "grains.gwy", gwy_bytes({{.title = "Height", .unit = "m", .map = &h, .mask = &mask}}));
+  EXPECT_EQ(
+      refusal_of([&] {
+        read_scan({path, 0, true, true});
+      }),
+      path +
+          ": 18 of 54 pixels (33 %) are no numbers or marked by the mask of the file; at most "
+          "a fifth can be filled: cut the map, or leave --fill (texture.fill) out to take "
+          "what is marked as heights, as for a mask of grains");
+  const std::string said = text(path, read_scan({path, 0, false, true}).changes);
+  EXPECT_NE(
+      said.find("the mask of the file marks 18 of 54 pixels (33 %), which are taken as heights"),
+      std::string::npos)
+      << said;
+  EXPECT_EQ(said.find("--fill"), std::string::npos) << said;
+}
+
 TEST(Gwy, OfSeveralChannelsOneIsNamed) {
   const Heightmap h = slope_and_bumps();
   Heightmap back = h;

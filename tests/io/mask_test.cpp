@@ -92,21 +92,36 @@ TEST(PixelMargins, DistancesAreThoseOfEveryPair) {
   }
 }
 
+double area_of(const Polygon& p) {
+  double sum = 0;
+  for (std::size_t i = 0; i < p.x.size(); ++i) {
+    const std::size_t j = (i + 1) % p.x.size();
+    sum += static_cast<double>(p.x[i]) * p.y[j] - static_cast<double>(p.x[j]) * p.y[i];
+  }
+  return 0.5e-18 * std::abs(sum);
+}
+
 TEST(GdsMask, PolygonsCoverTheAreaBelowTheLevel) {
   HoleArray holes;
   holes.diameter = 4.5e-6;
   const Texture texture{holes};
   const Heightmap h = generate(texture, patch_grid(texture, 256));
   double area = 0;
-  for (const Polygon& p : polygons_below(h, -0.5 * holes.depth)) {
-    double sum = 0;
-    for (std::size_t i = 0; i < p.x.size(); ++i) {
-      const std::size_t j = (i + 1) % p.x.size();
-      sum += static_cast<double>(p.x[i]) * p.y[j] - static_cast<double>(p.x[j]) * p.y[i];
-    }
-    area += 0.5e-18 * std::abs(sum);
-  }
+  for (const Polygon& p : polygons_below(h, -0.5 * holes.depth)) area += area_of(p);
   EXPECT_NEAR(area / h.grid.area(), facts(texture).open_share.value(), 0.005);
+}
+
+// One low pixel, centred at (18, 12) nm: the level crosses a third of the way to its right
+// neighbour, (22, 12) nm, and a twentieth of the way to the one beyond its corner, (18.6, 12.4) nm,
+// which the grid of 1 nm puts onto the same line.
+TEST(GdsMask, PolygonsOfNoAreaAreLeftOut) {
+  Heightmap h{{3, 3, 36e-9, 24e-9}, std::vector<double>(9, 19e-9)};
+  h(1, 1) = -1e-9;
+  h(2, 1) = h(1, 0) = 2e-9;
+  const std::vector<Polygon> polygons = polygons_below(h, 0);
+  EXPECT_FALSE(polygons.empty());
+  for (const Polygon& p : polygons)
+    EXPECT_GT(area_of(p), 0) << p.x[0] << " " << p.y[0] << " of " << p.x.size();
 }
 
 TEST(LayoutArray, APeriodOffTheGridIsRefusedAndFacetsKeepTheirError) {

@@ -7,6 +7,7 @@
 
 #include "geometry/io/files.h"
 #include "geometry/io/layout.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests::sizes_test {
@@ -35,14 +36,10 @@ TEST(Sizes, ARepeatedMapHasAllItsTilesAndTheirSides) {
   }
 }
 
-// Sides in micrometres and heights in nanometres, as other programs may write them; rows from the
-// top.
-TEST(Sizes, AnImageInOtherUnitsIsReadInMetres) {
-  const Heightmap h = oblong();
-  const std::string path = temporary("units.exr");
+// As other programs may write it, in micrometres and nanometres, with these sides [um].
+void write_in_other_units(const std::string& path, const Heightmap& h, double x, double y) {
   OIIO::ImageSpec spec(h.grid.nx, h.grid.ny, 1, OIIO::TypeDesc::FLOAT);
   spec.channelnames = {"Y"};
-  const double x = 6, y = 4;
   spec.attribute("Gwy::XReal", OIIO::TypeDesc::DOUBLE, &x);
   spec.attribute("Gwy::YReal", OIIO::TypeDesc::DOUBLE, &y);
   spec.attribute("Gwy::XYUnit", "um");
@@ -56,6 +53,26 @@ TEST(Sizes, AnImageInOtherUnitsIsReadInMetres) {
   ASSERT_TRUE(out && out->open(path, spec));
   ASSERT_TRUE(out->write_image(OIIO::TypeDesc::FLOAT, pixels.data()));
   out->close();
+}
+
+// It is no reason to take the pixels for squares. The reader of an EXR takes any number.
+TEST(Sizes, AStatedSideBelowZeroIsRefusedWithAndWithoutAWidth) {
+  const std::string path = temporary("below.exr");
+  write_in_other_units(path, oblong(), 6, -4);
+  for (const double width : {0.0, 6e-6}) {
+    EXPECT_EQ(refusal_of([&] { read_heightmap(path, width); }),
+              "cannot read " + path +
+                  ": the file says that it is 6 um wide and -4 um high, and sides are not below 0; "
+                  "correct them in the file, or save it without");
+  }
+}
+
+// Sides in micrometres and heights in nanometres, as other programs may write them; rows from the
+// top.
+TEST(Sizes, AnImageInOtherUnitsIsReadInMetres) {
+  const Heightmap h = oblong();
+  const std::string path = temporary("units.exr");
+  write_in_other_units(path, h, 6, 4);
   const Heightmap back = read_heightmap(path);
   EXPECT_NEAR(back.grid.lx, 6e-6, 1e-15);
   EXPECT_NEAR(back.grid.ly, 4e-6, 1e-15);

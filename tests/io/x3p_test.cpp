@@ -158,6 +158,27 @@ TEST(X3p, ReadsCompressedFilesOfOthersToTheLastBit) {
   }
 }
 
+// Its rows or columns stand in the other order; its sides are what they are.
+TEST(X3p, AnAxisThatRunsBackwardsIsTurnedRound) {
+  const Heightmap h = oblong();
+  const std::string path = temporary("backwards.x3p");
+  for (const bool along_x : {true, false}) {
+    std::vector<ZipEntry> entries = entries_of_others(h);
+    std::string& xml = entries[2].bytes;
+    xml.insert(xml.find("<Increment>", xml.find(along_x ? "<CX>" : "<CY>")) + 11, "-");
+    entries[0].bytes = md5_of(xml) + " *main.xml\n";
+    write_zip(path, entries);
+    Heightmap back;
+    ASSERT_EQ(refusal(path, &back), "");
+    EXPECT_NEAR(back.grid.lx, 6e-6, 1e-18);
+    EXPECT_NEAR(back.grid.ly, 2e-6, 1e-18);
+    for (int iy = 0; iy < 4; ++iy) {
+      for (int ix = 0; ix < 7; ++ix)
+        ASSERT_EQ(back(ix, iy), along_x ? h(6 - ix, iy) : h(ix, 3 - iy)) << ix << " " << iy;
+    }
+  }
+}
+
 TEST(X3p, RefusesDamagedCompressedFiles) {
   const std::string path = temporary("packed.x3p"), wrong = temporary("wrong.x3p");
   write_zip(path, entries_of_others(oblong()));

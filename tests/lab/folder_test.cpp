@@ -536,6 +536,15 @@ TEST_F(LabFolder, SaysTheFrequencyOfTheDesignInItsPlan) {
   EXPECT_EQ(Lab(folder_, 1).readings().front().experiment.at.frequency, 0);
 }
 
+// Labs that say the design's own frequency by 0 have always opened.
+TEST_F(LabFolder, ReadsAFrequencyOfZeroAsThatOfItsDesigns) {
+  LabFile lab_file = read_lab_file(folder_);
+  EXPECT_EQ(carrier_frequencies(lab_file.conditions), std::vector{0.0});
+  lab_file.conditions.frequency = {0};
+  write_text(folder_ + "/lab.toml", lab_file_text(lab_file));
+  EXPECT_EQ(carrier_frequencies(read_lab_file(folder_).conditions), std::vector{0.0});
+}
+
 TEST_F(LabFolder, SaysWhatIsWrongInLabToml) {
   std::string text = file_text(folder_ + "/lab.toml");
   const std::size_t at = text.find("repeatability");
@@ -631,6 +640,11 @@ TEST_F(LabFolder, KeepsReadingsWithTheirDesignWhereverItStandsInTheList) {
   const TellReport grown = tell({file("b.csv", rows + "deep,2,0.2,35,200,1,0.061,0.091\n")});
   EXPECT_NE(grown.markdown.find("b.csv: 1 reading told\n"), std::string::npos) << words(grown);
   EXPECT_NE(grown.markdown.find("2 readings told already"), std::string::npos) << grown.markdown;
+  // What came of the files stands before the heading of what the lab says now (the studio cuts
+  // there).
+  EXPECT_LT(grown.markdown.find("2 readings told already"),
+            grown.markdown.find("\n# Where the lab stands\n\n"))
+      << grown.markdown;
   lab_file.designs.erase(lab_file.designs.begin());
   write_text(folder_ + "/lab.toml", lab_file_text(lab_file));
   EXPECT_NE(refusal_of([&] {
@@ -694,6 +708,71 @@ TEST_F(LabFolder, SaysAWorthThatIsMinimisedInItsUnit) {
   const auto standing = nlohmann::json::parse(lab_state_json(lab))["standing"];
   EXPECT_NEAR(standing["best_worth"].get<double>(), 0.0533, 1e-9);
   EXPECT_NEAR(standing["designs"][1]["worth"].get<double>(), 0.06, 1e-9);
+}
+
+// Its regrets are shares of the worth of then.
+TEST_F(LabFolder, SaysTheReasonOfAPlanAsItWasWhateverIsToldLater) {
+  const auto why = [&] {
+    Lab lab(folder_, 1);
+    return nlohmann::json::parse(lab_state_json(lab))["why"].get<std::string>();
+  };
+  const std::string before = why();
+  EXPECT_NE(before.find(" %)"), std::string::npos) << before;
+  tell({file("a.csv", std::string(kHead) + "deep,1,0.2,35,200,1,0.03,0.09\n")});
+  EXPECT_EQ(why(), before);
+}
+
+TEST_F(LabFolder, SumsUpInTheWordsOfItsPage) {
+  stand_on_a_run();
+  {
+    Lab lab(folder_, 1);
+    const std::string summary = lab_summary_text(lab);
+    EXPECT_TRUE(summary.starts_with("deep is the best with probability ")) << summary;
+    for (const char* part :
+         {"too few to rely on", " deep keeps every limit of its study with probability 50 %"})
+      EXPECT_NE(summary.find(part), std::string::npos) << part << "\n" << summary;
+    for (const char* part : {" told.", " (before "})  // nothing was told yet
+      EXPECT_EQ(summary.find(part), std::string::npos) << part << "\n" << summary;
+    EXPECT_EQ(nlohmann::json::parse(lab_state_json(lab))["summary"], summary);
+  }
+  tell({file("a.csv", std::string(kHead) + "deep,1,0.2,35,200,1,0.06,0.09\n")});
+  Lab lab(folder_, 1);
+  const std::string summary = lab_summary_text(lab), text = lab_standing_text(lab);
+  EXPECT_NE(summary.find(" (before "), std::string::npos) << summary;
+  EXPECT_NE(summary.find("; 1 reading of 1 file told. "), std::string::npos) << summary;
+  const std::size_t at = text.find("The members explain all readings with probability");
+  ASSERT_NE(at, std::string::npos) << text;
+  EXPECT_NE(summary.find(text.substr(at, text.find('\n', at) - at)), std::string::npos) << summary;
+}
+
+// A plan since then keeps a decision of its own, which is not what was before the file.
+TEST_F(LabFolder, SumsUpWhatWasBeforeTheLastFileThoughAPlanFollowed) {
+  const auto head = [&] {
+    Lab lab(folder_, 1);
+    const std::string out = lab_summary_text(lab);
+    return out.substr(0, out.find(", expected regret"));
+  };
+  tell({file("a.csv", std::string(kHead) + "deep,1,0.2,35,200,1,0.06,0.09\n")});
+  const std::string told = head();
+  EXPECT_NE(told.find(" (before "), std::string::npos) << told;
+  NextRun plan;
+  plan.source.paths = {folder_};
+  plan.options.date = "2026-03-03";
+  plan.options.count = 1;
+  next_in_lab(plan);
+  EXPECT_EQ(head(), told);
+}
+
+TEST_F(LabFolder, SaysThatAFitIsOfOneOfItsFingers) {
+  const auto said = [&] {
+    Lab lab(folder_, 1);
+    return lab_standing_text(lab).find("`data_finger`");
+  };
+  const std::string head = std::string("finger,") + kHead;
+  tell({file("a.csv", head + "Ada,deep,1,0.2,35,200,1,0.06,0.09\n")});
+  EXPECT_EQ(said(), std::string::npos);
+  tell({file("b.csv", head + "Ben,deep,1,0.2,35,200,1,0.06,0.09\n")});
+  EXPECT_NE(said(), std::string::npos);
 }
 
 // The film does not stand 2,000 V at any member.

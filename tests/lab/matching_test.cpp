@@ -221,6 +221,35 @@ TEST_F(Tell, TakesAnotherFrequencyForAnotherExperimentAndSaysSo) {
   EXPECT_TRUE(matched("experiment,frequency_Hz,F_on_N\nE01,77,\n").notes.empty());
 }
 
+// A lab that sets the design's own frequency by 0, beside another.
+TEST_F(Tell, TakesTheDesignsOwnFrequencyForTheZeroOfItsLab) {
+  lab_.conditions.frequency = {1000, 0};
+  const double own = designs_.front().design.drive.frequency;
+  for (const double is : {own, 1.01 * own}) {
+    EXPECT_EQ(told(fmt::format("design,frequency_Hz,F_on_N\ndeep,{},0.1\n", is)).experiment.at,
+              (Conditions{0.2, 0.35, 200, 0}));
+  }
+  EXPECT_EQ(told("design,frequency_Hz,F_on_N\ndeep,1010,0.1\n").experiment.at.frequency, 1000);
+  // Without a voltage there is no frequency, as of what is planned.
+  lab_.conditions.frequency = {own};
+  EXPECT_EQ(told("design,voltage_V,F_off_N\ndeep,0,0.1\n").experiment.at,
+            (Conditions{0.2, 0.35, 0, 0}));
+}
+
+// Conditions say the design's own frequency by 0; a row says a constant voltage by it.
+TEST_F(Tell, RefusesAConstantVoltageOfADesignThatIsDrivenByAWave) {
+  lab_.fields = {field(0.2, 0.35, 200)};
+  for (const std::string table :
+       {"field,frequency_Hz,F_on_N\nA3,0,0.1\n",
+        "design,load_N,humidity_percent,voltage_V,frequency_Hz,F_on_N\ndeep,0.3,35,200,0,0.1\n"}) {
+    EXPECT_TRUE(refused(table).starts_with("frequency: 0 Hz is a constant voltage")) << table;
+  }
+  EXPECT_GT(told("field,frequency_Hz,F_off_N\nA3,0,0.1\n").off, 0);  // of no voltage
+  designs_.front().design.drive.waveform = Waveform::Dc;
+  EXPECT_EQ(told("field,frequency_Hz,F_on_N\nA3,0,0.1\n").experiment.at,
+            (Conditions{0.2, 0.35, 200, 0}));
+}
+
 // Both loads are within a tenth of .22 N.
 TEST_F(Tell, TakesAReadingForTheNearestOfItsConditions) {
   lab_.conditions.load = {0.2, 0.22};

@@ -52,10 +52,12 @@ TEST(Planning, KeepsWhyABatchEndsAndReadsPlansThatDoNotSay) {
   entry.plan->stop_reason = StopReason::NoChange;
   entry.plan->ended = BatchEnd::Time;
   entry.plan->shortest = 3600;
+  entry.plan->best_worth = -0.05;
   const PlanRecord again = *read_entry(entry_text(entry, {}), {}).plan;
   EXPECT_EQ(again.stop_reason, StopReason::NoChange);
   EXPECT_EQ(again.ended, BatchEnd::Time);
   EXPECT_EQ(again.shortest, 3600);
+  EXPECT_EQ(again.best_worth, -0.05);
   const PlanRecord older = *read_entry(R"({"plan":{"date":"2026-03-01","aim":"decision",)"
                                        R"("experiments":[],"seconds":0.0,"regret_now":0.1,)"
                                        R"("regret_after":0.1,"p_change":0.0,"stop":true}})",
@@ -63,6 +65,7 @@ TEST(Planning, KeepsWhyABatchEndsAndReadsPlansThatDoNotSay) {
                                 .plan;
   EXPECT_TRUE(older.stop);
   EXPECT_FALSE(older.stop_reason || older.ended);
+  EXPECT_EQ(older.best_worth, 0);
 }
 
 // An older program wrote the places of designs in the list, in keys too.

@@ -67,6 +67,8 @@ TEST(BeliefValues, ANumberIsMovedInProportionWithinTwiceTheDifference) {
     EXPECT_GE(moved(1, 0.3, to, true), 0);
     EXPECT_NEAR(moved(1, 2, to, false), to - 1, 1e-12);
   }
+  EXPECT_EQ(moved(0, 1, 0.2, true), 0);
+  EXPECT_EQ(moved(0, 0, 0.2, true), 0.2);
 }
 
 // The force may push: half of it says nothing of twice. Runs of -.1 and .1 about a value of .5.
@@ -75,8 +77,28 @@ TEST(BeliefValues, OfANumberThatChangesItsSignAreMovedByDifferences) {
   const auto v = *belief_values_at(0, QuantityMetric{&PointQuantities::capillary_force}, r);
   EXPECT_NEAR(v.values[1], 0.3 + (-0.3 - -0.1), 1e-12);
   EXPECT_NEAR(v.values[2], 0.3 + (0.3 - -0.1), 1e-12);
-  // So are spreads: here no member moves the variation.
+  // No member moves the variation, whatever it does to the mean.
   EXPECT_NEAR(belief_values(Summary::Variation, kModulation, r)->deviation(), 0, 1e-12);
+}
+
+// Runs that spread more than the response, and a member that hardly spreads: by their difference
+// its spread would be below 0. So are spreads of the capillary force, which itself may be.
+TEST(BeliefValues, OfASpreadAreMovedInProportion) {
+  Response r = with_members();
+  r.belief.own.points = points({0.4, 1});
+  r.belief.members = {{0.5, "a", {points({0.4, 1}), {}}}, {0.5, "b", {points({0.3, 0.32}), {}}}};
+  const QuantityMetric capillary{&PointQuantities::capillary_force};
+  for (const Metric& metric : {Metric(kModulation), Metric(capillary)}) {
+    const auto v = *belief_values(Summary::Std, metric, r);
+    EXPECT_NEAR(v.values[0], 0.2, 1e-12);
+    EXPECT_NEAR(v.values[1], 0.2 * 0.01 / 0.3, 1e-12);
+    EXPECT_GE(v.quantile(0), 0);
+  }
+  const auto own = 0.3 / 0.7, there = 0.01 / 0.31, of = 0.2;  // standard deviation over mean
+  EXPECT_NEAR(belief_values(Summary::Variation, kModulation, r)->values[1], of * there / own,
+              1e-12);
+  EXPECT_NEAR(belief_values(Summary::Range, kModulation, r)->values[1], 2 * of * there / own,
+              1e-12);
 }
 
 TEST(BeliefValues, TheDifferenceOfADesignFromItselfIsNotUncertain) {
@@ -86,6 +108,17 @@ TEST(BeliefValues, TheDifferenceOfADesignFromItselfIsNotUncertain) {
   EXPECT_EQ(none.low, 0);
   EXPECT_EQ(none.high, 0);
   EXPECT_EQ(none.above, 0.5);
+}
+
+// Nine weights of 1/9 sum to a last digit above 1.
+TEST(BeliefValues, TheProbabilityOfADifferenceIsAtMostOne) {
+  BeliefValues more, less;
+  more.weights = less.weights = std::vector<double>(9, 1.0 / 9);
+  more.values = std::vector<double>(9, 2);
+  less.values = std::vector<double>(9, 1);
+  more.moves = less.moves = StepSamples(9, std::vector<double>(2, 0));
+  EXPECT_EQ(belief_difference(more, less)->above, 1);
+  EXPECT_EQ(belief_difference(less, less)->above, 0.5);
 }
 
 // Twice the modulation at every member: the difference is uncertain by the value's own deviation;

@@ -199,10 +199,22 @@ TEST(MetricWords, AnErrorIsNeverShownAsNothing) {
   EXPECT_EQ(shown_with_error(modulation, 0.4906, 0.0243), "0.491 ± 0.024");
   EXPECT_EQ(shown_with_error(modulation, 0.49064, 0.00031), "0.4906 ± 0.0003");
   EXPECT_EQ(shown_with_error(modulation, 4.1e-4, 1e-4, true), "+0.0004 ± 0.0001");
+  // A difference that reads as nothing has no sign, which may be the wrong one.
+  EXPECT_EQ(shown_with_error(modulation, -4.06e-4, 0.037, true), "0.000 ± 0.037");
+  EXPECT_EQ(shown_with_error(modulation, 4.06e-4, 0.037, true), "0.000 ± 0.037");
   EXPECT_EQ(shown_with_error(parse_metric("contact_area"), 0.01637, 0.00071), "1.637 ± 0.071");
   EXPECT_EQ(shown_with_error(parse_metric("friction"), 0.1234, 0.0012), "123.4 ± 1.2");
   // What nothing scatters has its last bits.
   EXPECT_EQ(shown_with_error(parse_metric("haze"), 0.4, 1e-17), "40.00 ± 0.00");
+}
+
+// Far below what instruments read a number is the last bits of its theory.
+TEST(MetricWords, NoiseIsShownAsNothing) {
+  const MetricExpression haze = parse_metric("haze");
+  EXPECT_EQ(without_noise(haze, 2.018e-12), 0);
+  EXPECT_EQ(without_noise(haze, -2.018e-12), 0);
+  EXPECT_EQ(without_noise(haze, 1e-5), 1e-5);                          // 0.001 %
+  EXPECT_EQ(without_noise(parse_metric("modulation"), 1e-12), 1e-12);  // not known what resolves
 }
 
 // A voltage is that of its target, where it is reached; else people are told what came first.

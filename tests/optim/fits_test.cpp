@@ -155,6 +155,26 @@ TEST(Fits, APriorIsAResidual) {
   EXPECT_NEAR(fit.directions[0].singular_value, 0.25, 1e-9);
 }
 
+// The data know the sum of two parameters well and neither of them: of the one with the narrow
+// prior they know as much as the other's wide prior lets them, 1/(1 + 10^2). Eq. calibration.2
+TEST(Fits, TheDatasShareIsThatOfAParameterWhileTheOthersAreFree) {
+  const auto sum = [](std::span<const double> p, std::span<double> r) {
+    r[0] = 1e4 * (p[0] + p[1] - 1);
+    return true;
+  };
+  LeastSquaresOptions options = exact();
+  const LeastSquaresFit fit =
+      least_squares({{"a", 0, -100, 100, 0, 1}, {"b", 0, -100, 100, 0, 10}}, 1, sum, options);
+  EXPECT_NEAR(fit.parameters[0].data_share, 1 / 101.0, 1e-6);
+  EXPECT_NEAR(fit.parameters[1].data_share, 100 / 101.0, 1e-6);
+  // The other one at its bound is held there: all that the data say is of the first.
+  options.profile_iterations = 0;
+  const LeastSquaresFit held =
+      least_squares({{"a", 0, -100, 100, 0, 1}, {"b", -5, -100, -5, 0, 10}}, 1, sum, options);
+  EXPECT_TRUE(held.parameters[1].at_bound);
+  EXPECT_NEAR(held.parameters[0].data_share, 1, 1e-6);
+}
+
 // ln p is fitted: p = e^(2 +- 1/3), the standard error as a share.
 TEST(Fits, OfALogarithmTheErrorIsAShare) {
   LeastSquaresOptions options = exact();

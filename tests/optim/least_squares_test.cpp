@@ -41,7 +41,8 @@ TEST(LeastSquares, APriorAddsItsInformation) {
   const double n = 30 + 100, det = 5 * n - 100;
   EXPECT_NEAR(prior.parameters[1].value, (5 * (69.9 + 100) - 10 * 25.2) / det, 1e-8);
   EXPECT_NEAR(prior.parameters[1].se, std::sqrt(5 / det), 1e-8);
-  EXPECT_NEAR(prior.parameters[1].data_share, 30.0 / 130, 1e-8);
+  // With the intercept free the data know 30 - 10^2/5 = 10 of the slope, the prior 100.
+  EXPECT_NEAR(prior.parameters[1].data_share, 10.0 / 110, 1e-8);
   // The sum of the squares of each: what is missed of the values, and of the prior.
   const double a = prior.parameters[0].value, b = prior.parameters[1].value;
   const Values missed{1.2 - a, 2.9 - a - b, 5.1 - a - 2 * b, 7.2 - a - 3 * b, 8.8 - a - 4 * b};

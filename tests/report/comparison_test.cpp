@@ -65,10 +65,69 @@ TEST(Comparison, StatesDifferencesWithTheErrorsOfBothRuns) {
       text.find("| mean(modulation) | 0.400 ± 0.030 | 0.500 ± 0.030 | +0.100 ± 0.042, better |"),
       std::string::npos)
       << text;
-  EXPECT_NE(text.find("not told apart"), std::string::npos) << text;  // equal frictions
+  EXPECT_NE(text.find("none: the same number"), std::string::npos) << text;  // equal frictions
   EXPECT_NE(text.find("| texture.depth | 300 nm | 300 nm |"), std::string::npos) << text;
   EXPECT_NE(text.find("| drive.amplitude | \"200 V\" | \"150 V\" |"), std::string::npos) << text;
   EXPECT_EQ(text.find("texture.period"), std::string::npos) << "the same in both";
+}
+
+// Of one seed, accuracy and finger the skins are common: ± of the difference is a bound, and one
+// number beside itself is no difference. Of another seed both are independent.
+TEST(Comparison, SaysWhetherBothRunsHadTheSameSkins) {
+  const TemporaryFolder place;
+  const std::string one = run(place, "one", "200 V", 0), two = run(place, "two", "200 V", 0);
+  const std::string same = comparison_markdown(one, two);
+  EXPECT_NE(same.find("is an upper bound"), std::string::npos) << same;
+  EXPECT_EQ(same.find("are independent"), std::string::npos) << same;
+  EXPECT_NE(same.find("| 0.400 ± 0.030 | 0.400 ± 0.030 | none: the same number |"),
+            std::string::npos)
+      << same;
+  write_bytes(two + "/resolved.toml", read_bytes(two + "/resolved.toml") + "[search]\nseed = 7\n");
+  const std::string other = comparison_markdown(one, two);
+  EXPECT_NE(other.find("The runs are independent: their standard errors add in squares."),
+            std::string::npos)
+      << other;
+  EXPECT_NE(other.find("| 0.000 ± 0.042, not told apart"), std::string::npos) << other;
+}
+
+// A scenario of weight 0 is no task. A run whose time is limited may have given up skins.
+TEST(Comparison, SaysWhereTheNumbersOfSkinsMayDiffer) {
+  const TemporaryFolder place;
+  const std::string one = run(place, "one", "200 V", 0), two = run(place, "two", "200 V", 0);
+  const std::string study = read_bytes(two + "/resolved.toml");
+  const auto with = [&](const std::string& more) {
+    write_bytes(two + "/resolved.toml", study + more);
+    return comparison_markdown(one, two);
+  };
+  const auto weighted = [](const std::string& weight) {
+    return "[[scenarios]]\nname = \"new\"\n[[scenarios]]\nname = \"worn\"\nweight = " + weight +
+           "\nset = { \"surface.contact_angle\" = \"80 deg\" }\n";
+  };
+  const char *all = "judged on the same skins", *some = "judged on partly the same skins";
+  for (const auto& [more, words] : {std::pair{weighted("0.0"), all},
+                                    {weighted("1.0"), some},
+                                    {std::string("[search]\ntime = \"30 min\"\n"), some}}) {
+    const std::string said = with(more);
+    EXPECT_NE(said.find(words), std::string::npos) << more << said;
+    EXPECT_EQ(said.find("none: the same number") != std::string::npos, words == all) << more;
+  }
+}
+
+// What cannot be compared has a sentence, or no heading.
+TEST(Comparison, HasNoSectionWithoutText) {
+  const TemporaryFolder place;
+  const std::string one = run(place, "one", "200 V", 0), two = run(place, "two", "200 V", 0);
+  Json told = Json::parse(read_bytes(two + "/run.json"));
+  for (Json& f : told["finalists"]) f["folder"] = "";
+  write_bytes(two + "/run.json", told.dump());
+  EXPECT_NE(comparison_markdown(one, two).find("## Their fronts\n\ntwo has no front.\n"),
+            std::string::npos);
+  std::string study = read_bytes(two + "/resolved.toml");
+  study.erase(study.find("minimise"));
+  write_bytes(two + "/resolved.toml", study);
+  told["finalists"] = Json::array();
+  write_bytes(two + "/run.json", told.dump());
+  EXPECT_EQ(comparison_markdown(one, two).find("Their fronts"), std::string::npos);
 }
 
 TEST(Comparison, NamesEveryRunThatRecommendsNoneOfItsFront) {

@@ -81,6 +81,22 @@ TEST(DriveReport, ForPeopleHasEachNumberInTheUnitBesideIt) {
       "voltage beyond 150 V\n");
 }
 
+// Thickness 0: a capacitance of 0 would be that of an open gap.
+TEST(DriveReport, ALayerThatIsNotThereHasNoNumbers) {
+  Driven d;
+  d.r.network.skin = d.r.network.dielectric = slab(0, 4, 1e4, 1e-6);
+  EXPECT_NE(drive_text(d.c, d.r).find("\ndielectric            none\n"), std::string::npos)
+      << drive_text(d.c, d.r);
+  EXPECT_NE(drive_text(d.c, d.r).find("\nskin                  none\n"), std::string::npos);
+  const auto json = nlohmann::json::parse(drive_json(d.c, d.r));
+  EXPECT_TRUE(json["skin"].is_null() && json["dielectric"].is_null());
+  // A film that relaxes is there, under its own name.
+  d.r.network.relaxing = {{kInfinity, 2e-12}};
+  const std::string text = drive_text(d.c, d.r);
+  EXPECT_EQ(text.find("dielectric"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nrelaxing         insulator            2 pF"), std::string::npos) << text;
+}
+
 TEST(DriveReport, OfManyLinesShowsTheStrongestByFrequency) {
   Driven d;
   d.r.lines.clear();

@@ -41,6 +41,10 @@ TEST(ExportReport, ForPeopleHasTheSizeInItsUnits) {
   EXPECT_EQ(export_text(e, "out", {}),
             "out/heightmap.gsf\nout/heightmap.png\nout/export.json\n"
             "size 4 x 9 um, 2 x 3 pixels of 2000 x 3000 nm\n");
+  e.repeat = 3;
+  EXPECT_TRUE(export_text(e, "out", {})
+                  .ends_with("pixels of 2000 x 3000 nm; the EXR 3 x 3 times that: 12 x 27 um\n"));
+  e.repeat = 1;
   e.cells_x = 8, e.cells_y = 4;
   EXPECT_EQ(export_text(e, "out", felt()),
             "out/heightmap.gsf\nout/heightmap.png\nout/export.json\n"

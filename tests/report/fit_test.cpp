@@ -79,6 +79,18 @@ TEST(FitReport, ForPeopleHasEachNumberInTheUnitBesideIt) {
     EXPECT_NE(page.find(line), std::string::npos) << line << page;
 }
 
+TEST(FitReport, SaysThatFewSkinsMoveAllResidualsTogether) {
+  Fitted f;
+  const auto says = [&f] {
+    return calibration_markdown(f.c, f.r).find("All residuals meet these skins") !=
+           std::string::npos;
+  };
+  ASSERT_EQ(f.c.sampling.skins, 12);
+  EXPECT_FALSE(says());
+  f.c.sampling.skins = 11;
+  EXPECT_TRUE(says());
+}
+
 TEST(FitReport, AMisfitNamesItsWorstRow) {
   Fitted f;
   EXPECT_EQ(calibration_warning(f.r), "");
@@ -254,6 +266,10 @@ TEST(FitReport, SaysWhatTheDataKnowOfEachParameter) {
   EXPECT_EQ(verdict(),
             "Verdict: skin.rms is known to one side only: its interval ends at a bound; "
             "water.scale is known within ± 38 % (95 %).");
+  f.r.fit.parameters[0].high_open = true;
+  EXPECT_TRUE(verdict().starts_with(
+      "Verdict: skin.rms is known to neither side: its interval is all of what the bounds leave; "))
+      << verdict();
   f.r.fit.directions = {{1, {0.7, 0.7}}, {0.99, {0.2, -0.2}}};  // below 1 the prior decides
   EXPECT_TRUE(verdict().ends_with("38 % (95 %)" + apart)) << verdict();
   EXPECT_EQ(verdict().find(apart), verdict().rfind(apart));

@@ -17,6 +17,7 @@ MeanFieldPoint point() {
   p.on.pull = {PullStatus::Solved, 12e3, 7e3, 0.0075, 4.5e-6};
   p.on.friction = 0.6, p.on.coefficient = 1.2;
   p.capacitance = 1.6e-10;
+  p.dielectric_margin = 8;
   return p;
 }
 
@@ -69,6 +70,7 @@ TEST(MeanFieldReport, ForProgramsIsInSi) {
   const nlohmann::json p{{"voltage", 150},        {"load", 0.5},
                          {"frequency", 2000},     {"equivalent_thickness", 5e-6},
                          {"collapsed", false},    {"pressure", 12e3},
+                         {"breaks_down", false},  {"dielectric_margin", 8},
                          {"pull", 7e3},           {"area_off", 0.005},
                          {"area_on", 0.0075},     {"area_ratio", 1.5},
                          {"mean_gap", 4.5e-6},    {"gap_held", false},
@@ -129,14 +131,56 @@ TEST(MeanFieldReport, SaysWhatHasNoNumberAndWhatIsHeld) {
   r.point = lighter;
   r.point.on.pull.status = PullStatus::Collapsed;
   EXPECT_TRUE(json()["area_ratio"].is_null() && json()["coefficient"].is_null());
-  EXPECT_EQ(json()["gap_held"], true);
+  EXPECT_EQ(json()["gap_held"], false);
   EXPECT_EQ(json()["collapsed"], true);
+  r.point.on.pull.status = PullStatus::Solved;
+  EXPECT_EQ(json()["gap_held"], true);
   const std::string text = mean_field_text(c, r, 0.25);
   EXPECT_NE(text.find("off 0 %, ratio -\nmean gap         4.5 um, held\n"), std::string::npos)
       << text;
   EXPECT_NE(text.find("(coefficient -)"), std::string::npos);
-  EXPECT_NE(text.find("\npulled in: no equilibrium below 1 GPa\n"), std::string::npos);
   EXPECT_TRUE(text.ends_with("0.25 s\n"));
+}
+
+// A point without an equilibrium, or whose film breaks down, has no state under voltage.
+TEST(MeanFieldReport, APointWithoutAStateHasNoNumbersUnderVoltage) {
+  MeanFieldCase c;
+  for (const bool breaks : {false, true}) {
+    MeanFieldResult r;
+    MeanFieldPoint none = point();
+    if (breaks) {
+      none.dielectric_margin = 0.99;
+    } else {
+      none.on.pull.status = PullStatus::Collapsed;
+    }
+    r.point = none;
+    r.voltage = {point(), none};
+    const std::string text = mean_field_text(c, r, 0);
+    const std::string why = breaks ? "breaks down" : "pulled in";
+    EXPECT_NE(text.find("off 0.5 % of the nominal area; under 150 V no number: " + why + "\n"),
+              std::string::npos)
+        << text;
+    EXPECT_EQ(text.find("friction  "), std::string::npos) << text;
+    EXPECT_NE(text.find("     150      0.5       2000           -           -         -         - "
+                        "         -       -  " +
+                        why + "\n"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("\n" + why + ": "), std::string::npos);
+    const auto json = nlohmann::json::parse(mean_field_json(c, r, 0));
+    EXPECT_EQ(json["point"]["collapsed"], !breaks);
+    EXPECT_EQ(json["point"]["breaks_down"], breaks);
+    EXPECT_EQ(json["point"]["area_off"], 0.005);
+    for (const char* key : {"pressure", "pull", "area_on", "area_ratio", "mean_gap", "friction",
+                            "coefficient", "capacitance"})
+      EXPECT_TRUE(json["point"][key].is_null()) << key;
+    EXPECT_EQ(json["over_voltage"][0]["friction"], 0.6);
+    EXPECT_EQ(mean_field_grid_csv({none}),
+              "voltage,load,pull,area,area_off,mean_gap,friction,coefficient\n"
+              "150,0.5,,,0.005,,,\n");
+    r.point = point();  // in a table alone it is told as well
+    EXPECT_NE(mean_field_text(c, r, 0).find("\n" + why + ": "), std::string::npos);
+  }
 }
 
 // A pull that presses beyond the hardness, of the point and in a table.

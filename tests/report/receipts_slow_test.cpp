@@ -19,9 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+// Without a title: it is called by the name of its folder, which is none of the results.
 constexpr const char* kStudy = R"toml(schema_version = 1
 base = "m3_glass/conformal.toml"
-title = "Receipts"
+title = ""
 [environment]
 relative_humidity = ["35 %"]
 [accuracy]
@@ -107,6 +108,18 @@ TEST_F(ReceiptsOfARun, HoldWhereNothingWasChanged) {
     EXPECT_EQ(verdict.answered, verdict.asked);
     EXPECT_GT(verdict.asked, 15);
   }
+}
+
+// In no time at all: one question of each worker is what says how long the others take.
+TEST_F(ReceiptsOfARun, AreAskedOnceAWorkerWhereThereIsNoTime) {
+  RunChecking how;
+  how.seconds = 1e-9;
+  how.jobs = 1;
+  const RunVerdict verdict = RecomputedRun(folder("run"), how).judge(folder("run"));
+  EXPECT_EQ(verdict.answered, 1);
+  EXPECT_FALSE(verdict.holds());
+  EXPECT_GT(verdict.count(ReceiptState::NotRecomputed), 0u);
+  EXPECT_EQ(verdict.count(ReceiptState::Violated), 0u);
 }
 
 TEST_F(ReceiptsOfARun, SayWhyANumberHasNoBar) {

@@ -51,13 +51,14 @@ TEST(StatedNumber, IsNothingThatAStrangerCanWriteByAccident) {
 }
 
 TEST(Receipts, ReadBackAsTheyWereWritten) {
-  Receipts receipts{"0.1.0", "knee", true, "abc", {}};
+  Receipts receipts{"0.1.0", "knee", true, "abc", "a study", {}};
   receipts.list.push_back({"r01", gain(), "0.031", {"run.json#/recommendation"}, "def"});
   const std::string text = receipts_text(receipts);
   const Receipts back = read_receipts(text, "receipts.json");
   EXPECT_EQ(receipts_text(back), text);
   EXPECT_EQ(back.pick, "knee");
   EXPECT_TRUE(back.finish);
+  EXPECT_EQ(back.name, "a study");
   EXPECT_EQ(back.list.at(0).number.numerical, gain().numerical);
   for (const std::string& damaged :
        {std::string(), std::string("[]"), std::string("{\"version\": 3}"),

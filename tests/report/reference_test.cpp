@@ -32,8 +32,9 @@ TEST(Reference, OfEachSectionIsItsPage) {
 
 TEST(Reference, OfAKeyIsItsRowInEveryKindThatHasIt) {
   const std::string row =
-      "| `search.rounding` | grid of the fab: the best design is judged again with its lengths on "
-      "it; 0: not | a length in nm | 0 to 100000 nm | `10 nm` | choice |\n";
+      "| `search.rounding` | grid of the fab: the best design is judged again with its periods and "
+      "widths on it, other lengths on finer steps; 0: not | a length in nm | 0 to 100000 nm | `10 "
+      "nm` | choice |\n";
   const std::string head =
       "| key | meaning | kind | range | default | source |\n|---|---|---|---|---|---|\n";
   EXPECT_EQ(reference_section("search.rounding", ReferenceFormat::Markdown), head + row);

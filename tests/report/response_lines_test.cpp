@@ -201,7 +201,7 @@ TEST(ResponseDocuments, HaveTheirPartsOnRequest) {
           {{{"modulation", 0.5},
             {"amplitude",
              {{"value", 120}, {"se", 3}, {"numerical", 3}, {"model", nullptr}, {"parts", parts}}},
-            {"highest_modulation", 0.51},
+            {"highest_modulation", nullptr},
             {"limit", 500},
             {"evaluations", 5},
             {"status", "ok"}},

@@ -62,7 +62,8 @@ TEST(JsonSchema, AQuantityHasAUnitOfItsDimensionAloneOrNone) {
   const Json& rounding = property("search", "rounding");
   EXPECT_EQ(rounding["type"], "string");
   EXPECT_EQ(rounding["description"],
-            "grid of the fab: the best design is judged again with its lengths on it; 0: not");
+            "grid of the fab: the best design is judged again with its periods and widths on it, "
+            "other lengths on finer steps; 0: not");
   expect_pattern(rounding, {"10 nm", "10nm", " 1e-2 um ", "+.5 µm", "3. mm", "-4.25E+3 pm", "0 m"},
                  {"10", "10 V", "nm", "1 2 nm", "10 nm 3", "e3 nm", ". nm", "10 min", "1,5 nm"});
   expect_pattern(property("drive", "amplitude"), {"100 V", "0.1 kV"}, {"100", "100 N"});

@@ -16,6 +16,7 @@
 #include "base/text.h"
 #include "report/decision.h"
 #include "report/grounds.h"
+#include "report/limits.h"
 #include "report/receipts.h"
 #include "report/recommendation.h"
 #include "report/remarks.h"
@@ -220,8 +221,8 @@ TEST(BuildSheet, SaysWhatTheTextureGainsAndItsTolerances) {
   rounded.result.build->made.unit.front() += 1e-3;
   rounded.result.build->made.confirmed = score(0.49, 0.31, 0.24);
   EXPECT_NE(as_read(recommendation(rounded.files()))
-                .find("over fingers and humidity is 0.250; without texture it is 0.200. Its "
-                      "texture raises mean(modulation) by 0.100 ± 0.013 (better)"),
+                .find("over fingers and humidity is 0.240; without texture it is 0.200. Its "
+                      "texture raises mean(modulation) by 0.090 ± 0.013 (better)"),
             std::string::npos)
       << as_read(recommendation(rounded.files()));
   EXPECT_NE(as_read(run_summary(rounded.files()))
@@ -249,6 +250,11 @@ TEST(BuildSheet, SaysWhatTheTextureGainsAndItsTolerances) {
                       "follows is of design 01, the best of the front."),
             std::string::npos)
       << as_read(recommendation(costly.files()));
+  costly.result.build = BuiltDesign{costly.result.finalists[0], true, false};
+  EXPECT_NE(as_read(recommendation(costly.files())).find("off the grid of the fab"),
+            std::string::npos)
+      << as_read(recommendation(costly.files()));
+  costly.result.build.reset();
   // Asked, and without an answer: the texture is worth building where there is no equilibrium.
   Score& unanswered = costly.result.flat_unanswered.emplace();
   unanswered.kind = TaskStatus::Kind::TimedOut;
@@ -515,6 +521,14 @@ TEST(BuildSheet, NamesTheDesignThatAllObjectivesAlikeWouldChoose) {
       "mean(modulation) 0.480 in place of 0.500, variation(modulation) 0.100 in place of 0.300, a "
       "worst modulation of 0.200 in place of 0.250.";
   EXPECT_NE(said().find(sentence), std::string::npos) << said();
+  // The lead has other numbers of what is built: these are of both before rounding.
+  run.result.build = BuiltDesign{run.result.finalists[0], false};
+  run.result.build->made.unit.front() += 1e-3;
+  run.result.build->made.confirmed = score(0.49, 0.31, 0.24);
+  EXPECT_NE(said().find("in place of 0.250 (both before rounding to the grid of the fab)."),
+            std::string::npos)
+      << said();
+  run.result.build.reset();
   run.pick = "knee";
   EXPECT_EQ(said().find("By the rule"), std::string::npos);
   run.pick.clear();
@@ -883,6 +897,115 @@ TEST(BuildSheet, SaysWhatRoundingBreaks) {
   EXPECT_EQ(as_read(sheet_text(run.files())).find("**broken**"), std::string::npos);
 }
 
+// The design that the lead names, on the grid of the fab, has the numbers that stand beside it.
+TEST(BuildSheet, TheLeadHasTheNumbersOfTheDesignThatItNames) {
+  Searched run;
+  BuiltDesign build{run.result.finalists[0], false};
+  const auto made = [&](double depth, double angle, const Score& worth) {
+    const std::vector<double> value{5e-6, 3e-6, depth, angle * kPi / 180};
+    build.made.unit = run.problem.space().unit(value);
+    build.made.design = run.problem.space().design_of(value);
+    build.made.confirmed = worth;
+    run.result.build = build;
+    return as_read(recommendation(run.files()));
+  };
+  const auto has = [](const std::string& lead, const std::string& text) {
+    EXPECT_NE(lead.find(text), std::string::npos) << lead;
+  };
+  // The surface without texture has the finish of the search: the texture is judged with that.
+  std::string lead = made(300e-9, 71, score(0.49, 0.31, 0.24));
+  has(lead, "with contact angle of water 71 deg (50 deg in the study file).");
+  has(lead,
+      "over fingers and humidity is 0.240; before rounding, with contact angle of water 70 deg, it "
+      "is 0.250; without texture, before rounding too, it is 0.200. Before rounding, with contact "
+      "angle of water 70 deg, its texture raises mean(modulation) by 0.100 ± 0.013 (better)");
+  lead = made(310e-9, 70, score(0.41, 0.35, 0.2));
+  has(lead,
+      "Its texture changes no objective by more than the error of the difference on the grid of "
+      "the fab, where before rounding it raises mean(modulation) by 0.100 ± 0.013 (better)");
+  EXPECT_EQ(lead.find("not judged"), std::string::npos) << lead;
+  Score unjudged = score(0, 0, 0);
+  unjudged.ok = false;
+  lead = made(310e-9, 70, unjudged);
+  has(lead, "310 nm deep");
+  has(lead, "over fingers and humidity is 0.250;");
+  has(lead,
+      " These are its numbers before rounding to the grid of the fab: so rounded it was not "
+      "judged.");
+  EXPECT_EQ(scored_name(run.files()), "what is recommended");
+  made(310e-9, 70, score(0.41, 0.35, 0.2));
+  EXPECT_EQ(scored_name(run.files()), "what is built");
+}
+
+// A grid so coarse that it has no such design is not said to be kept.
+TEST(BuildSheet, SaysThatTheGridHasNoSuchDesign) {
+  Searched none;
+  none.result.build = BuiltDesign{none.result.finalists[0], true, false};
+  EXPECT_NE(as_read(recommendation(none.files()))
+                .find("Its numbers are as searched, off the grid of the fab (10 nm): no design of "
+                      "that grid near it keeps the limits of its shape, film and look"),
+            std::string::npos)
+      << as_read(recommendation(none.files()));
+  EXPECT_EQ(as_read(run_json(none.files()))["build"]["on_grid"], false);
+  Study study = holes();
+  study.search.rounding = 3e-6;
+  study.variables[0].low = 4.6e-6, study.variables[0].high = 5.4e-6;
+  Searched run(study);
+  run.result.build = BuiltDesign{run.result.finalists[0], false};
+  EXPECT_NE(as_read(recommendation(run.files()))
+                .find("Its period is off the grid of the fab (3 um), which has no value within low "
+                      "and high of the study"),
+            std::string::npos)
+      << as_read(recommendation(run.files()));
+  EXPECT_EQ(as_read(run_json(run.files()))["build"]["on_grid"], false);
+  EXPECT_NE(as_read(sheet_text(run.files()))
+                .find("Periods and widths that were searched are on a grid of 3 um "
+                      "(`search.rounding`), and so are other lengths of 150 um and more; shorter "
+                      "ones are on a finer one (`best/build.toml`); the range of texture.period "
+                      "has no value of it"),
+            std::string::npos)
+      << as_read(sheet_text(run.files()));
+}
+
+// A distance of next to nothing is held against its target.
+TEST(BuildSheet, ATargetSaysOfWhatTheToleranceIs) {
+  Study study = holes();
+  EXPECT_EQ(tolerance_end_text(Searched(study).files()),
+            "an objective worsens by 5 % or a limit is reached");
+  study.objective = {};
+  study.objective.targets = {{kModulation, 0.4}};
+  study.objective.minimise = {parse_metric("variation(modulation)")};
+  EXPECT_EQ(
+      tolerance_end_text(Searched(study).files()),
+      "an objective worsens by 5 % (a distance: by 5 % of its target, or of itself if that is "
+      "more) or a limit is reached");
+}
+
+// Who goes on with the files of a run that says to build none of its designs is told so.
+TEST(RunLimits, OfARunThatKeepsThemNowhereAreNamed) {
+  const TemporaryFolder place;
+  const std::string folder = place.path();
+  EXPECT_EQ(none_keeps_text(folder), "");
+  nlohmann::json run{
+      {"interrupted", false},
+      {"feasible", false},
+      {"limits",
+       {{{"name", "min_wall"}, {"asked", "at least 1 um"}, {"text", "2 um"}, {"kept", true}},
+        {{"name", "worst(modulation)"},
+         {"asked", "at least 5"},
+         {"text", "0.3075"},
+         {"kept", false}}}}};
+  write_bytes(folder + "/run.json", run.dump());
+  EXPECT_EQ(none_keeps_text(folder),
+            folder +
+                ": build none of these: no design of the run keeps every limit; what it shows "
+                "breaks worst(modulation) at least 5 (it has 0.3075)");
+  run["feasible"] = true;
+  write_bytes(folder + "/run.json", run.dump());
+  EXPECT_EQ(none_keeps_text(folder), "");
+  EXPECT_EQ(none_keeps_text(folder + "/run.json"), "");  // no folder
+}
+
 // What the limits are kept with stands in the lead where it is less than the study wants.
 TEST(BuildSheet, TheLeadSaysThatBeliefBreaksLimits) {
   Searched run;
@@ -969,6 +1092,27 @@ TEST(BuildSheet, OfASurfaceBesideTheFrontSaysThatHowSureItIsWasNotJudged) {
   decision.designs.push_back(search::Prospect{});
   EXPECT_TRUE(said().starts_with(
       "How sure: of the 2 designs of the front design 02, the surface that is recommended, is"))
+      << said();
+  // The choice by belief is another one: each statement names the design that it is about.
+  EXPECT_NE(
+      said().find("; design 01 has the least expected regret. The recommendation follows the "
+                  "objectives, in which the texture of design 01 gains no more than the error "
+                  "of the difference; belief is judged in mean(modulation)."),
+      std::string::npos)
+      << said();
+  const std::string text = as_read(decision_text(run.files()));
+  EXPECT_NE(text.find("What would overturn the choice of front/01: "), std::string::npos) << text;
+  // The best is flat too, and no better than the study's own surface: no texture is spoken of.
+  FinalDesign& best = run.result.finalists[0];
+  best.unit = *run.problem.space().flattened(best.unit);
+  best.design = run.problem.space().design(best.unit);
+  flat.unit = *run.problem.space().flattened(run.problem.space().own_surface());
+  flat.design = run.problem.space().design(flat.unit);
+  run.result.flat.reset();
+  run.result.flat_before = best.confirmed;
+  ASSERT_EQ(advice_of(run.problem, run.result), Advice::LeaveFlat);
+  EXPECT_NE(said().find("in which the finish of design 01 gains no more than the error"),
+            std::string::npos)
       << said();
 }
 

@@ -145,6 +145,7 @@ TEST(SurfaceReport, ForProgramsIsInSi) {
                             {"furthest", 3e-7},
                             {"where", {{"x", {1e-6, 2e-6}}, {"y", {3e-6, 4e-6}}}},
                             {"filled", 1},
+                            {"marked", 0},
                             {"highest", 0},
                             {"rms", 0}};
   std::vector<double> shares(48, 0.0);

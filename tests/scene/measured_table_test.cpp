@@ -161,6 +161,23 @@ TEST(MeasuredTable, RefusesARepeatThatIsNoWholeNumber) {
   EXPECT_EQ(table(head + "flat,2,0.2,0.1\n").rows.front().repeat, 2);
 }
 
+// Nothing but a constant voltage has a frequency of 0.
+TEST(MeasuredTable, AFrequencyOfNothingIsThatOfAConstantVoltage) {
+  Drive drive;
+  drive.frequency = 5e3;
+  EXPECT_EQ(frequency_problem(drive, 5e3), "");
+  EXPECT_EQ(frequency_problem(drive, 1), "");
+  EXPECT_EQ(
+      frequency_problem(drive, 0),
+      "0 Hz is a constant voltage, and the design is driven at 5000 Hz: give the frequency of "
+      "the drive, or set drive.waveform = \"dc\" in the design");
+  drive.frequency = 0;
+  EXPECT_EQ(frequency_problem(drive, 0), "");
+  drive = {};
+  drive.waveform = Waveform::Dc;
+  EXPECT_EQ(frequency_problem(drive, 0), "");
+}
+
 TEST(MeasuredTable, AsksWhetherAFileWithoutItsLastLineEndIsWhole) {
   const MeasuredTable t = table("design,load_N,F_off_N\nflat,0.2,0.1\nflat,0.2,0.1");
   ASSERT_EQ(t.notes.size(), 1u);

@@ -123,6 +123,10 @@ TEST(Constraints, ReadAsBrokenWhereTheyAre) {
   EXPECT_EQ(limit_value_text(ratio, 1.2346), "1.235");
   EXPECT_EQ(limit_value_text(ratio, 1.23454), "1.2345");  // 1.235 would be above it
   EXPECT_EQ(limit_value_text(ratio, 0.87654), "0.8765");
+  const Constraint haze = read_constraint("haze", 0.2);
+  EXPECT_EQ(limit_value_text(haze, 2.018e-12), "0 %");  // the last bits of a sum
+  EXPECT_EQ(limit_value_text(haze, 1e-5), "0.001 %");
+  EXPECT_EQ(limit_value_text(read_constraint("haze", 0), 2e-12), "2e-10 %");  // not kept
 }
 
 TEST(Constraints, HaveAValueOfEachDesign) {

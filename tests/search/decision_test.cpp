@@ -717,7 +717,7 @@ TEST(Decision, AMemberWithoutAnAnswerHasNoneWhereNumbersScatter) {
 }
 
 // What few skins leave open of the correction to the 3-D field moves each design by itself.
-TEST(Decision, TheFieldOfADesignMovesItsWorthAsOneMoreSkin) {
+TEST(Decision, TheFieldOfADesignMovesItsWorthByAnErrorOfItsOwn) {
   const StudyProblem problem(believing(0.3));
   const auto design = [&](double worst, double correction) {
     TaskAnswer confirmed = at(0, 0, worst);
@@ -734,7 +734,7 @@ TEST(Decision, TheFieldOfADesignMovesItsWorthAsOneMoreSkin) {
   const MemberWorth worth =
       member_worth(problem, {first, other, twin}, decision_rule(problem, ""), {});
   for (std::size_t m = 0; m < 3; ++m) {
-    const auto moves = [&](std::size_t i) { return worth.by_skin[i][m]; };
+    const auto moves = [&](std::size_t i) { return worth.by_error[i][m]; };
     EXPECT_NEAR(std::hypot(moves(1)[0], moves(1)[1]), 0.03, 1e-9);
     EXPECT_NEAR(moves(0)[0] * moves(1)[0] + moves(0)[1] * moves(1)[1], 0, 1e-9);
     EXPECT_EQ(moves(0), moves(2));  // the same field is off alike

@@ -100,6 +100,41 @@ TEST(FieldStudy, VoltageForIsAnObjectiveAndAConstraint) {
   EXPECT_LT(outcome.constraints[1], 0);
 }
 
+// The search has few pixels and no control skins: what they miss of contact areas a dry contact
+// says, where a goal is about them, so that a limit on friction means the same at every level.
+TEST(FieldStudy, ALimitOfFrictionIsJudgedInTheSearchAsItIsConfirmed) {
+  const auto study_with = [](const std::string& limits) {
+    return without_belief(
+        read_study(study_file("friction",
+                              "[drive]\namplitude = \"150 V\"\n"
+                              "[design_space]\n\"texture.depth\" = [\"0 nm\", \"500 nm\"]\n"
+                              "[objective]\nmaximise = \"mean(modulation)\"\n" +
+                                  limits)));
+  };
+  const Study study = study_with("[constraints]\n\"worst(friction)\" = \"1 N\"\n"),
+              without = study_with("");
+  const StudyProblem problem(study);
+  EXPECT_TRUE(problem.goals().areas);
+  EXPECT_FALSE(StudyProblem(without).goals().areas);
+  const Design design = problem.study().design;
+  const Fidelity search = stage_fidelity(problem, Stage::Search);
+  const TaskAnswer asked = evaluate_task(problem, design, 0, {search});
+  ASSERT_TRUE(asked.status.ok()) << asked.status.text;
+  const Response confirmed =
+      evaluate(scene_of(design), design.texture, stage_fidelity(problem, Stage::Confirm));
+  const double friction = confirmed.points[0].friction_off.value;
+  EXPECT_NEAR(asked.limited[0], friction, 0.15 * friction);
+  // By pixels alone it is not.
+  const Response alone = evaluate(scene_of(design), design.texture, search);
+  EXPECT_GT(alone.points[0].friction_off.value, 1.25 * friction);
+  // Of modulations they miss next to nothing: both frictions have one factor.
+  EXPECT_NEAR(asked.objectives[0].value, alone.points[0].modulation.value, 2e-3);
+  // So is what a check says of the same finger.
+  const TaskAnswer check =
+      evaluate_variant(problem, design, 0, stage_fidelity(problem, Stage::Stability));
+  EXPECT_NEAR(check.limited[0], friction, 0.15 * friction);
+}
+
 // So that designs which a skin moves alike are told apart by it: the confirmed answer has the
 // voltage skin by skin. Eq. search.15
 TEST(FieldStudy, AConfirmedVoltageHasItsSkins) {

@@ -47,8 +47,9 @@ TEST(PenStudy, ThePenHasNumbersOfItsOwn) {
   const TaskAnswer answer = evaluate_task(problem, study.design, 0, {fidelity});
   ASSERT_TRUE(answer.status.ok()) << answer.status.text;
   const Design pen = under_pen(study.design);
-  const Response alone = evaluate(scene_of(pen), pen.texture, fidelity);
-  const Response finger = evaluate(scene_of(study.design), study.design.texture, fidelity);
+  const Response alone = evaluate_for(problem.goals(), scene_of(pen), pen.texture, fidelity);
+  const Response finger =
+      evaluate_for(problem.goals(), scene_of(study.design), study.design.texture, fidelity);
   ASSERT_EQ(answer.objectives.size(), 2u);
   EXPECT_EQ(answer.objectives[0].value, summarise(Summary::Mean, kModulation, finger)->value);
   EXPECT_EQ(answer.objectives[1].value, summarise(Summary::Mean, kFriction, alone)->value);

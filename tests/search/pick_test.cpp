@@ -4,8 +4,14 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "base/error.h"
+#include "base/files.h"
+#include "base/folder.h"
+#include "search/records.h"
+#include "tests/support/refusal.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests::pick_test {
 namespace {
@@ -54,6 +60,27 @@ TEST(Pick, UnknownRulesAreRefused) {
   for (const char* rule : {"5", "0", "best", "3.5", "haze"})
     EXPECT_THROW(pick_design(rule, kFront), InputError) << rule;
   EXPECT_THROW(pick_design("", {}), InputError);
+}
+
+// A run keeps its journal: that it was interrupted stands in its run.json, or it has none.
+TEST(Pick, OfARunWithoutAFrontSaysWhyThereIsNone) {
+  const TemporaryFolder place;
+  const std::string path = place.path();
+  const Folder folder(path);
+  const auto said = [&] { return refusal_of([&] { picked_design(folder, "knee"); }); };
+  folder.write(kJournalName, "");
+  EXPECT_NE(said().find("its run was interrupted"), std::string::npos) << said();
+  folder.write("run.json", R"({"interrupted": true, "feasible": false})");
+  EXPECT_NE(said().find("its run was interrupted"), std::string::npos) << said();
+  folder.write("run.json", R"({"interrupted": false, "feasible": false})");
+  EXPECT_EQ(said(), path +
+                        ": no design of this run keeps every limit, so there is no front to pick "
+                        "from");
+  EXPECT_EQ(unfinished_hint(folder), "");
+  folder.made_below("best").write("design.toml", "");
+  EXPECT_NE(said().find("without --pick it is best/, which comes nearest"), std::string::npos)
+      << said();
+  EXPECT_EQ(picked_design(folder, ""), "best");
 }
 
 }  // namespace

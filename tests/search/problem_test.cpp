@@ -132,6 +132,27 @@ TEST(Tasks, OfScenariosThatSetWhatIsSearchedAreRefusedOrSaid) {
   EXPECT_NE(refusal(study).find("set texture.depth"), std::string::npos) << refusal(study);
 }
 
+// A spread over one humidity tells no designs apart, and is said where it is asked for.
+TEST(Tasks, OfOneHumidityHaveNoSpreadAndThatIsSaid) {
+  Study study = oxide_study();
+  study.population.clear();
+  study.objective = {};
+  study.objective.maximise = {parse_metric("mean(modulation)")};
+  study.objective.minimise = {parse_metric("variation(friction)")};
+  study.constraints = {read_constraint("range(modulation)", 0.3),
+                       read_constraint("variation(friction)", 0.3)};
+  const auto said = [&] {
+    const std::vector<std::string> all = unused_of(study);
+    return std::any_of(all.begin(), all.end(), [](const std::string& line) {
+      return line.starts_with("variation(friction), range(modulation): 0 for every design");
+    });
+  };
+  study.design.environment.relative_humidity = {0.35, 0.75};
+  EXPECT_FALSE(said());
+  study.design.environment.relative_humidity = {0.35};
+  EXPECT_TRUE(said());
+}
+
 // What counts for nothing is not evaluated, so that it cannot fail either.
 TEST(Tasks, OfAScenarioWithoutWeightAreNone) {
   Study study = oxide_study();
@@ -475,6 +496,27 @@ TEST(Stability, TestsTheLimitsOfTheStudy) {
   EXPECT_EQ(limit_name(s.variants[0].broken[1][0].limit.on), "oxide_breakdown_margin");
   EXPECT_NEAR(s.variants[0].broken[1][0].value, 1.9, 1e-12);
   EXPECT_TRUE(s.variants[0].broken[0].empty());
+}
+
+// Limits are those of the confirmation, moved as a variant moves what the level of the checks says:
+// the finger as it is breaks none of them.
+TEST(Stability, JudgesLimitsAsTheyWereConfirmed) {
+  Study study = oxide_study();  // a margin of 2 at least
+  study.population.resize(1);
+  const StudyProblem problem(study);
+  std::vector<TaskAnswer> answers(stability_variants(problem).size(),
+                                  answered({0.5, 0.2}, 0.001, 1.8));
+  answers[1].oxide_margin = 1.5;
+  answers[2] = TaskAnswer::refused(TaskStatus::Kind::NoEquilibrium, "pulled in");
+  set_confirmed_limits(problem, {answered({0.5, 0.2}, 0.001, 2.2)}, answers);
+  EXPECT_NEAR(answers[0].oxide_margin, 2.2, 1e-12);
+  EXPECT_NEAR(answers[1].oxide_margin, 2.2 * 1.5 / 1.8, 1e-12);
+  EXPECT_FALSE(answers[2].status.ok());
+  EXPECT_NEAR(answers.back().oxide_margin, 2.2, 1e-12);
+  // Of a design without a confirmed answer they stay.
+  std::vector<TaskAnswer> alone(answers.size(), answered({0.5, 0.2}, 0.001, 1.8));
+  set_confirmed_limits(problem, {TaskAnswer::refused(TaskStatus::Kind::TimedOut, "late")}, alone);
+  EXPECT_EQ(alone[1].oxide_margin, 1.8);
 }
 
 // Two thirds of the variants make a design stable.

@@ -374,6 +374,22 @@ TEST(Slopes, TolerateWhatInstrumentsDoNotRead) {
   EXPECT_DOUBLE_EQ(tolerated("variation(adhesion)", 0.2), 0.01);
 }
 
+// On a target the distance is next to nothing, and 5 % of it no tolerance.
+TEST(Slopes, TolerateOfADistanceAShareOfItsTarget) {
+  const auto tolerated = [](double target, double distance) {
+    return tolerated_loss({.expression = parse_metric("mean(modulation)"),
+                           .maximise = false,
+                           .name = "distance(modulation)",
+                           .aimed = true,
+                           .target = target},
+                          distance);
+  };
+  EXPECT_DOUBLE_EQ(tolerated(0.4, 0.009), 0.02);
+  EXPECT_DOUBLE_EQ(tolerated(-0.4, 0.009), 0.02);
+  EXPECT_DOUBLE_EQ(tolerated(0.4, 0.8), 0.04);
+  EXPECT_DOUBLE_EQ(tolerated(0, 0.2), 0.01);  // a target of nothing has no share
+}
+
 TEST(Levels, OneDesignInThreeIsJudgedAgainAndNoMoreThan32) {
   SearchProblem p;
   p.space.dimensions.assign(2, Dimension{});

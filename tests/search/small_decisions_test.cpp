@@ -144,6 +144,25 @@ TEST(SmallDecisions, AGridIsAtMostAFiftiethOfTheLength) {
   EXPECT_EQ(on_grid({"texture.levels", "", 0, 5, {}}, 1.2345, 1e-8), 1.2345);
 }
 
+// A mask has no places between those of its grid, however short what it draws is: what no mask
+// draws goes in finer steps.
+TEST(SmallDecisions, WhatAMaskDrawsStaysOnTheGrid) {
+  const auto um = [](const char* path, double value, double low, double high, double grid) {
+    const Variable v{path, "um", 1e-6 * low, 1e-6 * high, {}};
+    return 1e6 * on_grid(v, 1e-6 * value, 1e-6 * grid);
+  };
+  EXPECT_NEAR(um("texture.period", 5.04, 4, 6, 0.5), 5, 1e-9);
+  EXPECT_NEAR(um("texture.diameter", 3.15, 1.2, 5, 0.5), 3, 1e-9);
+  EXPECT_NEAR(um("texture.width", 0.123, 0.05, 1, 0.01), 0.12, 1e-9);
+  EXPECT_NEAR(um("texture.parts.1.period", 0.348, 0.1, 1, 0.01), 0.35, 1e-9);
+  EXPECT_NEAR(um("texture.diameter", 1.3, 1.2, 5, 3), 3, 1e-9);  // nothing nearer is in range
+  EXPECT_NEAR(um("texture.depth", 0.1676, 0.03, 0.2, 0.5), 0.1675, 1e-9);
+  EXPECT_NEAR(um("surface.dielectric.0.thickness", 1.008, 0.1, 2, 0.5), 1.01, 1e-9);
+  const Variable narrow{"texture.period", "um", 4.6e-6, 5.4e-6, {}};
+  EXPECT_FALSE(lies_on_grid(narrow, 5e-6, 3e-6));
+  EXPECT_TRUE(lies_on_grid(narrow, 5e-6, 0.5e-6));
+}
+
 TEST(SmallDecisions, AGridStaysWithinItsIntervalAndOutOfItsHoles) {
   const auto nm = [](double value, double low, double high, std::vector<Excluded> holes = {}) {
     const Variable v{"texture.depth", "nm", low / 1e9, high / 1e9, {}, std::move(holes)};

@@ -15,6 +15,7 @@
 #include "base/constants.h"
 #include "base/files.h"
 #include "base/watch.h"
+#include "config/describe.h"
 #include "search/advice.h"
 #include "search/building.h"
 #include "search/levels.h"
@@ -414,6 +415,35 @@ TEST(Stages, TheBestOfTheGridIsBuiltNotTheNearest) {
   EXPECT_NE(build.made.unit, build.nearest->unit);
 }
 
+// Of the grid the nearest that keeps its look is built where there is no time to judge any: here
+// the nearest is deeper than the searched one, which has just the haze that is allowed.
+TEST(Stages, WithoutTimeWhatIsBuiltKeepsItsLook) {
+  Study study = two_variables();
+  study.search.time = 1e-6;
+  const std::vector<double> searched{302.6e-9, 60 * kPi / 180};
+  const auto haze_of = [&](double depth) {
+    Design design = study.design;
+    set_number(design, "texture.depth", depth);
+    return appearance_of(design).haze;
+  };
+  const double allowed = haze_of(searched[0]) * (1 + 1e-9);
+  ASSERT_GT(haze_of(303e-9), allowed);
+  study.constraints = {read_constraint("haze", allowed)};
+  AnsweredRun a(study, fresh_folder("stages_look"), lines);
+  FinalDesign recommended;
+  recommended.unit = a.run.problem.space().unit(searched);
+  recommended.design = a.run.problem.space().design(recommended.unit);
+  recommended.confirmed = a.run.problem.score(
+      recommended.design, {lines({Stage::Confirm, 0, false, recommended.unit})});
+  recommended.feasible = true;
+  const BuiltDesign build = built_of(a.run, recommended);
+  EXPECT_TRUE(a.asked.empty());
+  EXPECT_TRUE(build.on_grid);
+  EXPECT_TRUE(build.widened);
+  EXPECT_NE(build.made.unit, recommended.unit);
+  EXPECT_LE(appearance_of(build.made.design).haze, allowed);
+}
+
 // No design of the grid keeps the limit that the searched one keeps by a hair: it is built as
 // searched.
 TEST(Stages, WhatTheGridWouldBreakIsBuiltAsSearched) {
@@ -433,6 +463,38 @@ TEST(Stages, WhatTheGridWouldBreakIsBuiltAsSearched) {
   EXPECT_EQ(build.judged, kMostJudgedOnGrid);
   ASSERT_TRUE(build.nearest);
   EXPECT_FALSE(build.nearest->feasible);
+}
+
+// A number on the way to a result has its unit, and the level that it is of.
+TEST(Stages, TellTheBestSoFarInItsUnitAtItsLevel) {
+  Study study = evolved();
+  study.objective = {};
+  study.objective.maximise = {parse_metric("mean(modulation)")};
+  study.objective.minimise = {parse_metric("mean(friction)")};
+  std::string last;
+  AnsweredRun a(study, fresh_folder("stages_units"), lines, false, nullptr,
+                [&](const Progress& p) { last = p.best; });
+  ASSERT_TRUE(a.whole());
+  EXPECT_NE(last.find(": mean(modulation) "), std::string::npos) << last;
+  EXPECT_TRUE(last.ends_with(" mN (search level)")) << last;
+}
+
+// The one period of the grid leaves no wall: nothing is judged, and the grid is not said to be
+// kept.
+TEST(Stages, WhatHasNoShapeOnTheGridIsBuiltAsSearched) {
+  Study study = evolved();
+  study.variables[0] = small_study().variables[0];  // the period
+  study.variables[0].low = 3e-6, study.variables[0].high = 4.5e-6;
+  study.design.texture.kind = HoleArray{.period = 4e-6, .diameter = 3e-6};
+  study.search.rounding = 3e-6;
+  study.constraints = {read_constraint("min_wall", 0.4e-6)};
+  AnsweredRun a(study, fresh_folder("stages_no_shape"), bowl);
+  ASSERT_TRUE(a.whole());
+  const BuiltDesign& build = *a.run.result.build;
+  EXPECT_FALSE(build.on_grid);
+  EXPECT_FALSE(build.nearest);
+  EXPECT_EQ(build.judged, 0u);
+  EXPECT_EQ(build.made.unit, recommended_design(a.run.problem, a.run.result).unit);
 }
 
 // Interrupted anywhere, and continued: the same answers to the same questions, none asked twice.

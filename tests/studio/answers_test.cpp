@@ -60,6 +60,8 @@ TEST_F(Answers, TellTheStateOfTheSession) {
   EXPECT_EQ(ask("/set", {{"path", "drive.amplitude"}, {"value", "0"}}),
             (Json{{"revision", first + 2}}));
   expected["changes"] = Json::parse(R"([["texture.depth", "262 nm"], ["drive.amplitude", "0 V"]])");
+  expected["title"] =
+      expected["title"].get<std::string>() + "; texture.depth 262 nm; drive.amplitude 0 V";
   expected["undo"] = true, expected["driven"] = false;
   expected["steps"] = {"depth 262 nm", "amplitude 0 V"}, expected["done"] = 2;
   expected["pins"] = Json::array({{{"number", 1}, {"name", "mine"}, {"readable", true}}});
@@ -190,6 +192,28 @@ TEST_F(Answers, AreToldAsOneLineEach) {
   EXPECT_LT(told["seconds"].get<double>(), 60);
   EXPECT_FALSE(told["response"].contains("seconds"));
   EXPECT_FALSE(told["response"]["points"].empty());
+}
+
+// Of a stack they are of each part alone, and its parts may leave less between them.
+TEST(Studio, SaysWhoseTheSmallestWidthsAre) {
+  for (const bool stack : {false, true}) {
+    const TemporaryFolder folder;
+    StudioOptions options = studio_options(folder.path().string());
+    if (stack) {
+      options.file = (folder.path() / "two.toml").string();
+      write_bytes(options.file,
+                  "schema_version = 1\nbase = \"m3_samples/common.toml\"\n\n[texture]\n"
+                  "type = \"stack\"\n\n[[texture.parts]]\ntype = \"waves\"\n"
+                  "period = \"6 um\"\ndepth = \"100 nm\"\n\n[[texture.parts]]\n"
+                  "type = \"waves\"\nperiod = \"3 um\"\ndepth = \"50 nm\"\n");
+    }
+    Studio studio(options);
+    const Place place(studio.address());
+    Connection page(place.port);
+    page.send(place.own("GET", "events"));
+    const std::string wanted = stack ? "\"of_parts\":true" : "\"of_parts\":false";
+    EXPECT_NE(page.read_until(wanted, 60).find(wanted), std::string::npos) << wanted;
+  }
 }
 
 // A desk tells of both until its thread has ended.

@@ -1,6 +1,6 @@
 """The studio in headless Chromium: browser.py PROGRAM PART [PICTURE_FOLDER]. Exit 0: all as it should be.
 
-Parts: smoke (page, sliders, undo, pin, widths, dark, console), pages (two pages one state, reconnect, foreign
+Parts: smoke (page, sliders, undo, pin, widths, dark, console), modules (what the page makes of what it is told), pages (two pages one state, reconnect, foreign
 origin), hour (open, change, pin, search, steer, plan and tell measurements, pick, scan, export, verify, save, reopen), keys (the same hour by keys alone),
 thousand (events of a slider without a pause), latency (300 events of each of five keys on five kinds of design, and memory after them: a table).
 """
@@ -103,9 +103,9 @@ def looks(browser, studio):
     """In both schemes at each width. In scripts/test --thorough it is loaded anew at each, else at the narrowest, and then the window grows."""
     for scheme in ["dark", "light"]:
         browser.scheme(scheme)
-        for width in [380, 1024, 1440, 2560] if THOROUGH else [380, 1440]:
+        for width in [360, 1024, 1440, 2560] if THOROUGH else [360, 1440]:
             browser.metrics(width, 900)
-            if THOROUGH or width == 380:
+            if THOROUGH or width == 360:
                 go(browser, studio)
                 until(browser, "document.documentElement.dataset.shape", 30, "the shape")
             until(browser, f"innerWidth === {width}", 10, "the width of the window")
@@ -262,6 +262,101 @@ def smoke(browser, folder):
         studio.close()
 
 
+SEARCH = """{
+    state: 'finished', number: 1, numbers: [1], folder: 'searches/001', stage: 'search', done: 3, total: 3, trouble: '', progress: null,
+    variables: [{path: 'texture.depth', unit: 'nm'}], fingers: [], worth: {scale: 1, unit: ''}, front: [],
+    objectives: [{name: 'mean(modulation)', maximise: true, scale: 1, unit: ''}],
+    points: [0.3, 0.5, 0.4].map((v) => ({values: ['300 nm'], objectives: [v], ok: true, feasible: true})),
+    confirmed: [['front/01', 0.5], ['front/02', 0.4]].map(([design, v]) => ({design, 'texture.depth [nm]': '300', 'mean(modulation)': String(v), 'mean(modulation) se': '0.1', 'on front': 'yes'})),
+    recommended: {design: 'front/02', words: 'Build design 02.'}
+}"""
+
+
+def searched(browser):
+    """A front has the names of its folders, best first, with what is recommended; a failed search has neither hint nor report, and no bar goes back."""
+    browser.run(f"window.search = {SEARCH}; parts.showSearch(search)")
+    rows = browser.run("return [...document.querySelectorAll('#frontlist tbody tr')].map(r => [r.cells[1].textContent, r.cells[2].textContent, r.className])")
+    check(rows == [["front/01", "0.5", ""], ["front/02, recommended", "0.4", "recommended"]], f"the front: {rows}")
+    sets = browser.run("return papilla.charts.pareto.data.datasets.map(s => [s.label, s.data.length])")
+    check(["recommended", 1] in sets, f"the chart of the front: {sets}")
+    check(browser.run("return document.getElementById('recommendation').textContent") == "Build design 02.", "what is recommended")
+    bar = "return document.getElementById('bar').getAttribute('aria-valuenow')"
+    shares = []
+    for share in [0.48, 0.37, 0.6]:
+        browser.run(f"parts.showSearch({{...search, state: 'running', folder: 'searches/002', confirmed: [], recommended: null, progress: {{share: {share}, seconds_left: 9}}}})")
+        shares.append(browser.run(bar))
+    check(shares == ["48", "48", "60"], f"the bar of a search: {shares}")
+    browser.run("parts.showSearch({...search, state: 'failed', folder: 'searches/003', trouble: 'error: no texture keeps it', done: 0, points: [], confirmed: [], recommended: null})")
+    failed = browser.run("return [...['fronthint', 'stage', 'recommendation'].map(id => document.getElementById(id).textContent), document.getElementById('report').hidden]")
+    check(failed == ["", "error: no texture keeps it", "", True], f"a search that failed: {failed}")
+
+
+def modules(browser, folder):
+    studio = Studio(folder, two_humidities(folder))
+    try:
+        go(browser, studio)
+        until(browser, "document.documentElement.dataset.shape && document.documentElement.dataset.ready", 30, "the page")
+        browser.run("Promise.all(['plots/maps.js', 'plots/curves.js', 'plots/solid.js', 'page/answer.js', 'page/scene.js', 'page/search.js', 'page/lab.js', 'page/files.js'].map((file) => import(new URL(file, location.href)))).then((all) => { window.parts = Object.assign({}, ...all); })")
+        until(browser, "window.parts", 10, "the modules of the page")
+        # The margin that limits, beside that of the solved field.
+        margins = browser.run("return [[3.2, 2.5], [1.18, 0.909], [0.9, 0.95], [2, null], [null, null]].map(([oxide_margin, bridged_margin]) => parts.breakdownMargin([{oxide_margin, bridged_margin}]))")
+        check(margins == ["2.5; by the solved field 3.2", "0.909: the film is at risk; by the solved field 1.18", "0.9: the film breaks down", "2", None], f"breakdown margins: {margins}")
+        # A section goes through the middle of a hole, of a particle, and across what is flat elsewhere.
+        rows = browser.run("""
+            const map = (height) => ({nx: 16, ny: 16, lx: 1, ly: 1, low: -1, high: 1, values: Float64Array.from({length: 256}, (_, i) => height(i % 16, i >> 4))});
+            const cap = (x, y) => Math.max(0, 1 - ((x - 5) ** 2 + (y - 9) ** 2) / 16);
+            return [cap, (x, y) => -cap(x, y), (x, y) => y < 8 ? -1 : x < 8 ? 0 : 0.5].map((height) => parts.sectionRow(map(height)));""")
+        check(rows == [9, 9, 8], f"rows of sections: {rows}")
+        # One humidity has a bar, several have a band.
+        bars = browser.run("""
+            const point = (rh) => ({relative_humidity: rh, modulation: {value: 0.5, se: 0.1, parts: {}}});
+            return [[point(0.5)], [point(0.2), point(0.5)]].map((points) => parts.curve('a', points, '#000')[0]).map((set) => [set.bars, set.data[0].ey]);""")
+        check(bars == [[True, 0.2], [False, 0.2]], f"bars: {bars}")
+        # All parts of a stack, as its form calls them; margins of each part.
+        names = browser.run("""
+            const keys = [0, 1, 2, 3].flatMap((part) => ['period', 'depth'].map((key) => ({path: `texture.parts.${part}.${key}`, type: 'number', value: '1 um'})));
+            parts.showDimensions({...papilla.session(), keys: papilla.session().keys.filter((k) => !k.path.startsWith('texture.')).concat(keys)});
+            return [...document.querySelectorAll('#dimensions li > span')].map((s) => s.textContent);""")
+        check(names == [f"parts {part} {key}" for part in range(1, 5) for key in ("period", "depth")], f"parts of a stack: {names}")
+        look = browser.run("""
+            parts.showLook({haze: 0, transmittance: 0.9, total_transmittance: 0.9, gloss: 90, distinctness: 1, sparkle: 0, colour_shift: 6.2e-17, min_hole: 1e-6, min_wall: 1.1e-6, aspect_ratio: 0, of_parts: true});
+            return [...document.querySelectorAll('#look li')].map((li) => [...li.childNodes].filter((n) => !n.matches || !n.matches('.what')).map((n) => n.firstChild ? n.firstChild.textContent : n.textContent).join(': '));""")
+        check({"colour shift: 0", "smallest hole of a part: 1 µm", "smallest wall of a part: 1.1 µm"} <= set(look), f"the look of a stack: {look}")
+        searched(browser)
+        # The lab in the words of lab.md, and what came of a file that was told.
+        browser.run("parts.showLab({folder: 'searches/001', doing: '', trouble: '', said: 'a.csv: 1 reading told\\n\\nBefore: no reading\\n\\nb.csv: 1 row not measured yet, left planned\\n\\n# Where the lab stands\\n\\nfront/01 is the best', lab: {summary: 'front/01 is the best with probability over 99 %', plans: [], told: [], decisions: [], standing: {designs: []}}})")
+        said = browser.run("return ['labstanding', 'labtold'].map((id) => document.getElementById(id).textContent)")
+        check(said == ["front/01 is the best with probability over 99 %", "a.csv: 1 reading told\n\nBefore: no reading\n\nb.csv: 1 row not measured yet, left planned"], f"the lab: {said}")
+        # Of a lab that an earlier version wrote, and after a plan.
+        browser.run("parts.showLab({folder: 'searches/001', doing: '', trouble: '', said: '# What to measure next', lab: {plans: [], told: [], decisions: [], standing: {designs: []}}})")
+        said = browser.run("return ['labstanding', 'labtold'].map((id) => document.getElementById(id).textContent)")
+        check("plan or tell once to see it" in said[0] and said[1] == "", f"an earlier lab: {said}")
+        # The ground of the solid is of the light or the dark of now.
+        ground = "!parts.solid.ready || parts.solid.renderer.getClearColor(new THREE.Color()).getHexString() === new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue('--tint').trim()).getHexString()"
+        for scheme in ["dark", "light"]:
+            browser.scheme(scheme)
+            until(browser, ground, 10, f"the ground of the solid in {scheme}")
+        # A decimal comma in the width of a map.
+        browser.run("""
+            const send = window.fetch;
+            window.widths = [];
+            window.fetch = async (url, what) => {
+                if (String(url).startsWith('scan?')) return new Response('{"name": "scans/a.npy"}');
+                if (url !== 'scan/view') return send(url, what);
+                window.widths.push(JSON.parse(what.body).size);
+                return new Response('{"error": "no map"}');
+            };
+            parts.takeScan(new File(['x'], 'a.npy'));""")
+        until(browser, "window.widths.length === 1", 10, "the import view")
+        browser.run("document.querySelector('#dialogbody input[type=text]').value = '12,5 µm'")
+        click(browser, "Look again")
+        until(browser, "window.widths.length === 2", 10, "a second look")
+        check(browser.run("return window.widths[1]") == "12.5 um", "a decimal comma in the width of a map")
+        quiet(browser)
+    finally:
+        studio.close()
+
+
 def pages(browser, folder):
     studio = Studio(folder, two_humidities(folder))
     try:
@@ -364,7 +459,7 @@ def measured(browser, results):
         csv.writer(file, lineterminator="\n").writerows(rows)
     element = browser.call("POST", "/element", {"using": "css selector", "value": "#labfiles"})
     browser.call("POST", f"/element/{list(element.values())[0]}/value", {"text": told})
-    until(browser, "/ readings of 1 files told/.test(document.getElementById('labstanding').textContent) || !document.getElementById('labnotice').hidden", 300, "what was told")
+    until(browser, "/ readings of 1 file told/.test(document.getElementById('labstanding').textContent) || !document.getElementById('labnotice').hidden", 300, "what was told")
     check(not browser.run(trouble), browser.run(trouble))
     check(browser.run("return [...document.querySelectorAll('#labbatch tbody tr')].every(r => r.cells[7].textContent === r.cells[6].textContent)"), "touches that were told")
     browser.run("document.getElementById('labhead').scrollIntoView()")
@@ -688,7 +783,7 @@ def main():
     folder, profile = tempfile.mkdtemp(), tempfile.mkdtemp()
     browser = Browser(profile)
     try:
-        {"smoke": smoke, "pages": pages, "hour": hour, "keys": keys, "thousand": thousand, "latency": latency}[sys.argv[2]](browser, folder)
+        {"smoke": smoke, "modules": modules, "pages": pages, "hour": hour, "keys": keys, "thousand": thousand, "latency": latency}[sys.argv[2]](browser, folder)
     finally:
         browser.close()
         shutil.rmtree(profile, ignore_errors=True)

@@ -9,6 +9,7 @@ namespace {
 TEST(StudioInChromium, AnswersSlidersAndKeysInLightAndDarkWideAndNarrow) {
   expect_in_browser("smoke");
 }
+TEST(StudioInChromium, ShowsWhatItIsToldAsItIs) { expect_in_browser("modules"); }
 TEST(StudioInChromium, ShowsOneStateToTwoPagesAndToOneThatComesBack) { expect_in_browser("pages"); }
 TEST(StudioInChromium, AnswersTheLastOfAThousandEvents) { expect_in_browser("thousand"); }
 

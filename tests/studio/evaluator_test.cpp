@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "config/describe.h"
+#include "estimate/evaluation.h"
 #include "forward/forward.h"
 #include "geometry/io/files.h"
 #include "metrics/metrics.h"
@@ -182,6 +183,61 @@ TEST(Evaluator, RefinesWhatIsAtHandAndThenWhatIsPinned) {
     ASSERT_EQ(c.error.has_value(), error.has_value());
     EXPECT_NEAR(c.error.value_or(0), error.value_or(0), 1e-12) << c.metric;
   }
+}
+
+// Its level, its pixels and skins, members of belief on these; a pinned design at the same,
+// whatever its own file asks for.
+TEST(Evaluator, EndsAtTheAccuracyOfTheDesignAndItsPins) {
+  Told told;
+  Design design = quick_design();
+  design.accuracy.level =
+      read_design(PAPILLA_DESIGNS_DIR "/m3_samples/a3h600.toml", {"accuracy.level=draft"})
+          .accuracy.level;
+  Design pinned = design;
+  pinned.accuracy.seed = 9;
+  set_number(pinned, "texture.depth", 500e-9);
+  {
+    Evaluator evaluator(told.listener());
+    evaluator.wish({1, design, {{4, pinned}}});
+    told.wait([&] { return !told.refined.empty() && told.refined.back() == "done"; });
+  }
+  ASSERT_TRUE(told.failures.empty());
+  const Response asked = evaluate_design(design), &last = told.answers.back().response;
+  EXPECT_EQ(last.points, asked.points);
+  EXPECT_EQ(last.fidelity.level, "draft");
+  EXPECT_EQ(last.belief.grid, asked.belief.grid);
+  EXPECT_EQ(told.answers.back().pinned.at(4).fidelity, last.fidelity);
+  // The film's margin under a bridge is there from the first answer on.
+  const double margin = told.answers.front().response.points.at(0).bridged_margin;
+  EXPECT_EQ(told.answers.front().step, Step::First);
+  EXPECT_LT(margin, last.points.at(0).oxide_margin);
+  EXPECT_EQ(margin, last.points.at(0).bridged_margin);
+}
+
+// A target chooses pixels, skins and estimator design by design: pins take those of the design at
+// hand, or nothing would tell the two apart. The pinned one alone would need more of them.
+TEST(Evaluator, ComparesPinsAtTheAccuracyThatATargetChose) {
+  Told told;
+  Design design = quick_design();
+  design.finger.belief.clear();
+  set_number(design, "texture.depth", 150e-9);
+  design.accuracy.target = 0.045;
+  Design pinned = design;
+  set_number(pinned, "texture.depth", 600e-9);
+  {
+    Evaluator evaluator(told.listener());
+    evaluator.wish({1, design, {{4, pinned}}});
+    told.wait([&] { return !told.refined.empty() && told.refined.back() == "done"; });
+  }
+  ASSERT_TRUE(told.failures.empty());
+  const Answer& last = told.answers.back();
+  EXPECT_EQ(last.step, Step::Design);
+  EXPECT_EQ(last.response.points, evaluate_design(design).points);
+  EXPECT_EQ(last.pinned.at(4).fidelity, last.response.fidelity);
+  EXPECT_NE(evaluate_design(pinned).fidelity, last.response.fidelity);
+  ASSERT_EQ(last.comparisons.size(), 4u);
+  EXPECT_TRUE(last.comparisons[0].error);
+  EXPECT_TRUE(last.comparisons[3].error);
 }
 
 // By the ratio and the load laws of the design that was refined last; a pinned design beside it by

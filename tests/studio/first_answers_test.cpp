@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/describe.h"
+#include "estimate/voltage.h"
 #include "forward/forward.h"
 #include "studio/first_answer.h"
 
@@ -161,11 +162,15 @@ TEST(FirstAnswers, TakeTheLoadLawsOfTheirAnchor) {
   ASSERT_FALSE(anchor.laws[0].empty());
   EXPECT_NE(anchor.laws[0][0].pull, 0);
   const Response own = quick_answer(away, nullptr), quick = quick_answer(away, &anchor);
-  EXPECT_EQ(own.points, evaluate(scene_of(away), away.texture, fidelity).points);
+  const Scene scene = scene_of(away);
+  const auto points = [&](Response response) {
+    set_bridged_margins(response, scene, away.texture);
+    return response.points;
+  };
+  EXPECT_EQ(own.points, points(evaluate(scene, away.texture, fidelity)));
   EXPECT_EQ(quick.points,
-            respond(scene_of(away), fidelity,
-                    solve_patches(scene_of(away), away.texture, fidelity, {}, anchor.laws))
-                .points);
+            points(respond(scene, fidelity,
+                           solve_patches(scene, away.texture, fidelity, {}, anchor.laws))));
   EXPECT_LT(quick.contact_solves, 0.75 * own.contact_solves);
   // The anchor itself is answered so; its own laws let forces grow to its load and no farther.
   EXPECT_EQ(anchor.quick.points, quick_answer(at, &anchor).points);

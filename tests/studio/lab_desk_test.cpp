@@ -74,20 +74,6 @@ TEST_F(LabOfASearch, IsOpenedOnceThenPlannedAndTold) {
             "tell R/lab R/lab_measured/E01_run1.csv R/lab_measured/E01_run2.csv --replace\n");
 }
 
-// lab.json is in SI; the page shows a regret as the words of the lab do.
-TEST_F(LabOfASearch, KnowsTheUnitOfItsWorth) {
-  const auto lab = desk("exit 0\n");
-  std::filesystem::create_directories(results() / "lab");
-  const auto shown = [&](const std::string& worth) {
-    const Json state{{"plans", Json::array()}, {"standing", {{"worth", worth}}}};
-    write_bytes(results() / "lab/lab.json", state.dump());
-    return lab->json(kResults)["worth"];
-  };
-  EXPECT_EQ(shown("mean(friction)"), (Json{{"scale", 1000.0}, {"unit", "mN"}}));
-  EXPECT_EQ(shown("worst(modulation)"), (Json{{"scale", 1.0}, {"unit", ""}}));
-  EXPECT_EQ(shown("a run of several metrics"), (Json{{"scale", 1.0}, {"unit", ""}}));
-}
-
 TEST_F(LabOfASearch, SaysWhatWentWrongWithItsOwnResultsAlone) {
   const auto lab = desk("echo 'error: the finger names no belief' >&2\nexit 2\n");
   lab->plan(kResults, 8);

@@ -154,7 +154,9 @@ class Saving : public ::testing::Test {
   // The draft saved, as its file reads back.
   std::string save(const Draft& draft, const std::string& name) {
     files_.save(draft, study_of(draft), files_.target(name, true));
-    EXPECT_EQ(read_design(place_.path() / name), study_of(draft).design);
+    Design wanted = study_of(draft).design;
+    wanted.title = title_of(draft, wanted);
+    EXPECT_EQ(read_design(place_.path() / name), wanted);
     return read_bytes(place_.path() / name);
   }
 
@@ -166,8 +168,21 @@ class Saving : public ::testing::Test {
 TEST_F(Saving, StandsOnAShippedDesignWithTheChangedKeysAlone) {
   EXPECT_EQ(
       save({shipped_, {{"texture.depth", "262 nm"}, {"drive.amplitude", "120 V"}}}, "mine.toml"),
-      "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n\n[texture]\ndepth = \"262 nm\"\n\n"
-      "[drive]\namplitude = \"120 V\"\n");
+      "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n"
+      "title = \"Published sample: holes of 3 um, 600 nm deep, period 6 um; texture.depth 262 nm; "
+      "drive.amplitude 120 V\"\n\n[texture]\ndepth = \"262 nm\"\n\n[drive]\namplitude = "
+      "\"120 V\"\n");
+}
+
+// Saved again and again it says each value once; a file that has a title has it in its own line.
+TEST_F(Saving, SaysInTheTitleWhatWasChanged) {
+  const std::string file = place_.path() / "mine.toml";
+  write_bytes(file,
+              "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\ntitle = \"Mine\"  # first\n");
+  save({file, {{"texture.depth", "262 nm"}}}, "mine.toml");
+  const std::string text = save({file, {{"texture.depth", "300 nm"}}}, "mine.toml");
+  EXPECT_NE(text.find("\ntitle = \"Mine; texture.depth 300 nm\"  # first\n"), std::string::npos)
+      << text;
 }
 
 TEST_F(Saving, EditsItsOwnFileAndKeepsItsComments) {
@@ -193,9 +208,9 @@ TEST_F(Saving, TwoChangedItemsOfAListAreOneList) {
                                  {{"surface.dielectric.0.thickness", "700 nm"},
                                   {"surface.dielectric.0.permittivity", "4.5"}}},
                                 "film.toml");
+  const std::string key = "dielectric = ";  // its title names the changed items too
   std::size_t lists = 0;
-  for (std::size_t at = text.find("dielectric"); at != std::string::npos;
-       at = text.find("dielectric", at + 1))
+  for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1))
     ++lists;
   EXPECT_EQ(lists, 1u) << text;
 }
@@ -223,8 +238,11 @@ TEST_F(Saving, AFilmOfItsOwnFileTakesKeysThatItHadNot) {
 TEST_F(Saving, ABaseIsNamedFromTheFolderOfItsFile) {
   save({shipped_, {{"texture.depth", "262 nm"}}}, "sub/mine.toml");
   const std::string own = place_.path() / "sub/mine.toml";
-  EXPECT_EQ(save({own, {{"drive.amplitude", "120 V"}}}, "copy.toml"),
-            "schema_version = 1\nbase = \"sub/mine.toml\"\n\n[drive]\namplitude = \"120 V\"\n");
+  EXPECT_EQ(
+      save({own, {{"drive.amplitude", "120 V"}}}, "copy.toml"),
+      "schema_version = 1\nbase = \"sub/mine.toml\"\n"
+      "title = \"Published sample: holes of 3 um, 600 nm deep, period 6 um; texture.depth 262 "
+      "nm; drive.amplitude 120 V\"\n\n[drive]\namplitude = \"120 V\"\n");
 }
 
 // A file stands on none above its folder: there it has every value, of a study also its search.
@@ -259,7 +277,7 @@ TEST_F(Saving, AListStandsInThePlaceOfItsSections) {
   EXPECT_NE(text.find("\n# air\n[environment]\nrelative_humidity = [\"35 %\"]\n"),
             std::string::npos)
       << text;
-  EXPECT_EQ(read_design(file), thick);
+  EXPECT_EQ(changes_between(read_design(file), thick), std::vector<studio::Change>{});
 }
 
 TEST_F(Saving, RefusesNamesOutsideAndFilesThatAreThere) {
@@ -278,7 +296,9 @@ TEST_F(Saving, AScanStandsBesideTheFileThatNamesIt) {
   const std::string bytes = read_bytes(PAPILLA_DESIGNS_DIR "/measured_surface/scan.gsf");
   files_.keep_scan("mine.gsf", bytes);
   const Draft draft = files_.with_scan({shipped_, {}}, "scans/mine.gsf", "", false, false);
-  EXPECT_NE(save(draft, "scanned.toml").find("file = \"scans/mine.gsf\""), std::string::npos);
+  const std::string text = save(draft, "scanned.toml");
+  EXPECT_NE(text.find("file = \"scans/mine.gsf\""), std::string::npos) << text;
+  EXPECT_EQ(text.find(place_.path().string()), std::string::npos) << text;  // nor in its title
   EXPECT_THROW(files_.keep_scan("mine.exe", bytes), InputError);
   EXPECT_THROW(files_.keep_scan("../mine.gsf", bytes), InputError);
   EXPECT_THROW(files_.with_scan({shipped_, {}}, "../scan.gsf", "", false, false), InputError);

@@ -450,7 +450,8 @@ TEST_F(LeftSearch, ShowsWhatWasFound) {
       "stage":"search","done":4,"total":12,"trouble":"","progress":null,
       "variables":[{"path":"texture.depth","unit":"nm"}],"fingers":["reference"],
       "objectives":[{"name":"mean(modulation)","maximise":true,"scale":1.0,"unit":""}],
-      "worth":{"scale":1.0,"unit":""},"front":[3],"confirmed":[]})json"));
+      "worth":{"scale":1.0,"unit":""},"front":[3],"confirmed":[],
+      "recommended":{"design":null,"words":""}})json"));
 }
 
 // Values are told in SI, as in its files: with them how people read them.
@@ -688,6 +689,39 @@ TEST(SearchDesk, AFinishedSearchShowsItsFront) {
   EXPECT_EQ(json["folder"], "searches/001");
   EXPECT_EQ(json["confirmed"], Json::parse(R"([{"folder":"front/01","mean":"0.5"},
       {"folder":"front/02","mean":"0.4"},{"folder":"front/03"}])"));
+}
+
+// Its design has the name that its folder, its report and its lab have.
+TEST(SearchDesk, AFinishedSearchSaysWhatIsRecommended) {
+  const std::string run =
+      R"(echo '{"design": "front/02", "recommendation": "Build design 02."}' > $4/run.json; exit 0)";
+  EXPECT_EQ(ended_search(run)["recommended"],
+            (Json{{"design", "front/02"}, {"words", "Build design 02."}}));
+  for (const char* other :
+       {R"(echo '{"design": null, "recommendation": ""}' > $4/run.json; exit 0)",
+        "echo '{' > $4/run.json; exit 0", "exit 2"})
+    EXPECT_EQ(ended_search(other)["recommended"], (Json{{"design", nullptr}, {"words", ""}}))
+        << other;
+}
+
+// As it was before the studio went: there is nothing to resume.
+TEST(SearchDesk, FindsASearchThatWasRefusedFailed) {
+  const TemporaryFolder place;
+  const std::filesystem::path folder = place.path() / "searches/001";
+  std::filesystem::create_directories(folder);
+  write_bytes(folder / "study.toml", study_text(read_study(kHoles), depth_wish()));
+  write_bytes(folder / "origin.json", R"({"file":")" + kHoles + R"(","changes":[]})");
+  const auto left_with = [&](const std::string& log) {
+    write_bytes(folder / "log.txt", log);
+    SearchDesk desk(place.path(), "none", [] {});
+    return desk.json();
+  };
+  const std::string log = "expected: 3 min\nerror: constraints: no texture keeps it\n";
+  EXPECT_EQ(left_with(log)["state"], "failed");
+  EXPECT_EQ(left_with(log)["trouble"], log);
+  EXPECT_EQ(left_with("expected error: 3 %\n")["state"], "paused");  // it had not begun
+  write_bytes(folder / "journal", "");
+  EXPECT_EQ(left_with(log)["state"], "paused");  // what it found can be gone on with
 }
 
 TEST(SearchDesk, AFailedSearchSaysTheEndOfItsLog) {

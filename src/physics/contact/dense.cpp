@@ -106,6 +106,7 @@ class DenseSolver {
     choose_lists_or_fields();
     state_.certified = iterate();
     state_.exhausted = state_.iterations >= max_iterations_;
+    fields_.settle_shift();
     state_.shift = fields_.shift;
     fields_.close_gaps();
   }

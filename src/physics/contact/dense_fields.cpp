@@ -22,32 +22,54 @@ DenseFields::DenseFields(const StandardProblem& standard, StandardState& state_o
       scratch_(kernel.scratch_size()) {}
 
 void DenseFields::scale_to_load() {
-  const auto n = static_cast<double>(p.size());
   const double carried = sum(p);
   if (carried <= 0) {
-    std::fill(p.begin(), p.end(), load / n);
+    std::fill(p.begin(), p.end(), load / static_cast<double>(p.size()));
     return;
   }
-  double factor = load / carried;
   if (!std::isfinite(cap)) {
+    const double factor = load / carried;
     for (double& v : p) v *= factor;
     return;
   }
+  // What is at the cap stays there, and what is a rounding below it belongs there: it flows, so its
+  // gap function lies below the shift, of which that of an elastic pixel is a sample.
+  constexpr double kRounding = 1e-12;
+  double factor = 1;
   for (int k = 0; k < 60; ++k) {
-    double total = 0, open = 0;
+    double full = 0, open = 0;  // carried at the cap, and below it
     for (double& v : p) {
-      v = std::min(v * factor, cap);
-      total += v;
-      if (v < cap) open += v;
+      if (v > 0 && v < cap) v *= factor;
+      if (v >= (1 - kRounding) * cap) v = cap;
+      (v < cap ? open : full) += v;
     }
-    if (std::abs(total - load) <= 1e-13 * load) return;
-    if (open > 0 && open + load - total > 0) {
-      factor = 1 + (load - total) / open;
-    } else {  // everything is at the cap but load is left: open the whole patch
-      for (double& v : p) v = std::min(v + (load - total) / n, cap);
-      factor = 1;
+    const double left = load - full;
+    if (std::abs(left - open) <= kRounding * load) return;
+    if (left <= 0) {  // more than the load is at the cap: all of it gives way
+      for (double& v : p) v *= load / (full + open);
+      return;
     }
+    if (open == 0) {
+      press_highest(left);
+      return;
+    }
+    factor = left / open;
   }
+}
+
+void DenseFields::press_highest(double rest) {
+  std::vector<std::size_t> bare;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (p[i] == 0) bare.push_back(i);
+  }
+  const double needed = std::ceil(rest / cap);
+  const std::size_t count = std::min(bare.size(), static_cast<std::size_t>(needed));
+  const auto higher = [&](std::size_t i, std::size_t j) {
+    return std::pair(-problem.height[i], i) < std::pair(-problem.height[j], j);
+  };
+  std::nth_element(bare.begin(), bare.begin() + static_cast<std::ptrdiff_t>(count), bare.end(),
+                   higher);
+  for (std::size_t k = 0; k < count; ++k) p[bare[k]] = rest / static_cast<double>(count);
 }
 
 void DenseFields::start(RealArray without) {
@@ -92,6 +114,14 @@ void DenseFields::set_shift(double sum, double count, double t) {
     }
     shift = std::isfinite(lowest) ? 0.5 * (lowest + highest) : highest;
   }
+}
+
+void DenseFields::settle_shift() {
+  if (problem.approach || !std::isfinite(cap)) return;
+  const double yield = kernel.self_compliance();
+  field.resize(p.size());
+  for_each_pixel(p.size(), [&](auto at) { at.store(field, at(p) - at(gap) / yield); });
+  shift = -yield * load_level(field, {}, cap, load, load);
 }
 
 double DenseFields::certificate() {

@@ -18,8 +18,8 @@ struct StepSlopes {
 struct DenseFields {
   DenseFields(const StandardProblem& standard, StandardState& state);
 
-  // p as given, with any mean: scaled to the load over the whole grid; below a cap what overflows
-  // goes to the others.
+  // p as given, with any mean: scaled to the load over the whole grid; below a cap what is at it
+  // stays, and what overflows goes to the others.
   void scale_to_load();
   // Gap function without pressure, or empty, to `change`: what p adds to it there.
   void start(RealArray without);
@@ -32,6 +32,9 @@ struct DenseFields {
   // Rigid shift at t of the step: the mean gap function of the pixels between the bounds, sum /
   // count. Given the approach, the load instead.
   void set_shift(double sum, double count, double t);
+  // The shift of the state returned. Below a cap the mean over the pixels that are not at it would
+  // take those for elastic that a certified state may leave on their way there. Eq. contact.19
+  void settle_shift();
   // Frank-Wolfe gap over load and height spread. Eq. contact.4, contact.10
   double certificate();
   // Gaps and work of the state, in one pass.
@@ -56,6 +59,10 @@ struct DenseFields {
   double shift = 0, low = 0, work = 0;  // low: the lowest gap; work: sum of p times gap function
 
  private:
+  // A rest of the load [Pa] that what is pressed cannot take goes to the highest of the others, on
+  // as few as carry it: on all of them it would close the gap everywhere, at a small certificate.
+  void press_highest(double rest);
+
   SpectrumArray scratch_;
   std::vector<double> sorted_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/check.h"
 
@@ -51,8 +52,12 @@ GapElement rough_gap(double mean_inverse, double mean_inverse_square, double h0,
 }
 
 Transfer transfer(const Network& network, DriveControl control, double frequency) {
-  std::vector<const ImpedanceLayer*> layers{&network.gap.layer, &network.dielectric, &network.skin};
+  // Gap and skin, then the layers of the film.
+  std::vector<const ImpedanceLayer*> layers{&network.gap.layer, &network.skin, &network.dielectric};
   for (const ImpedanceLayer& layer : network.relaxing) layers.push_back(&layer);
+  const auto of_film = [](const std::vector<std::complex<double>>& each) {
+    return std::accumulate(each.begin() + 2, each.end(), std::complex<double>(0));
+  };
   std::vector<std::complex<double>> z;
   std::complex<double> total = 0;
   bool open = false;
@@ -62,22 +67,28 @@ Transfer transfer(const Network& network, DriveControl control, double frequency
     open = open || std::isinf(z.back().real());
   }
   if (control == DriveControl::Current && std::isinf(network.shunt)) {
-    return {z[0], open ? kInfinity : total, 1};
+    return {z[0], open ? kInfinity : total, 1, of_film(z)};
   }
-  Transfer out{0, 1, 0};  // of a volt
+  Transfer out{0, 1, 0};                              // of a volt
+  std::vector<std::complex<double>> share(z.size());  // of that volt
   if (!open) {
-    out.gap_voltage = z[0] / total;
+    for (std::size_t i = 0; i < z.size(); ++i) share[i] = z[i] / total;
     out.current = 1.0 / total;
   } else {  // only insulators hold a constant voltage, by their capacitances
     double elastance = 0;
-    for (std::size_t i = 0; i < layers.size(); ++i) {
+    for (std::size_t i = 0; i < z.size(); ++i) {
       if (std::isinf(z[i].real())) elastance += 1 / layers[i]->capacitance;
     }
-    if (std::isinf(z[0].real())) out.gap_voltage = 1 / layers[0]->capacitance / elastance;
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      if (std::isinf(z[i].real())) share[i] = 1 / layers[i]->capacitance / elastance;
+    }
   }
+  out.gap_voltage = share[0];
+  out.film_voltage = of_film(share);
   if (control == DriveControl::Current) {
     const std::complex<double> volts = 1.0 / (1 / network.shunt + out.current);
     out.gap_voltage *= volts;
+    out.film_voltage *= volts;
     out.source_voltage = volts;
     out.current *= volts;
   }
@@ -109,8 +120,11 @@ HeldSquare held_square(double peak, double held) {
 DriveResponse respond(const Network& network, DriveControl control, double amplitude,
                       double frequency) {
   const Transfer t = transfer(network, control, frequency);
-  DriveResponse out{amplitude * std::abs(t.gap_voltage), amplitude * std::abs(t.source_voltage),
-                    amplitude * std::abs(t.current), 0, 0};
+  DriveResponse out;
+  out.gap_voltage = amplitude * std::abs(t.gap_voltage);
+  out.source_voltage = amplitude * std::abs(t.source_voltage);
+  out.current = amplitude * std::abs(t.current);
+  out.film_voltage = amplitude * std::abs(t.film_voltage);
   const double factor = network.gap.force_factor, held = network.gap.held;
   if (frequency > 0) {
     const HeldSquare v2 = held_square(out.gap_voltage, held);
@@ -119,6 +133,8 @@ DriveResponse respond(const Network& network, DriveControl control, double ampli
   } else {
     out.mean_force = factor * square(std::min(out.gap_voltage, held));
   }
+  // Exact where film and gap are in phase, else a little more than the film's peak.
+  out.film_voltage += std::max(0.0, out.gap_voltage - held);
   out.gap_voltage = std::min(out.gap_voltage, held);
   return out;
 }

@@ -21,9 +21,12 @@ struct ImpedanceLayer {
   // Z = R / (1 + jwRC) [ohm]; infinite for an insulator at 0 Hz. Eq. drive.1
   std::complex<double> impedance(double frequency) const;
   double corner_frequency() const;  // 1 / (2 pi R C) [Hz]; 0 for an insulator
+  // False: nothing lies there, and its capacitance of 0 stands for no number.
+  bool present() const { return resistance > 0; }
 };
 
-// Thickness [m], area [m^2], resistivity [ohm m] (infinite: an insulator). Thickness 0: a short.
+// Thickness [m], area [m^2], resistivity [ohm m] (infinite: an insulator). Thickness 0: none, which
+// conducts without a resistance.
 ImpedanceLayer slab(double thickness, double permittivity, double resistivity, double area);
 
 // The gap as one element with the force it makes: F = force_factor V_gap^2.
@@ -44,7 +47,7 @@ GapElement rough_gap(double mean_inverse, double mean_inverse_square, double h0,
 struct Network {
   ImpedanceLayer dielectric, skin;
   GapElement gap;
-  std::vector<ImpedanceLayer> relaxing{};  // layers of the dielectric whose permittivity does
+  std::vector<ImpedanceLayer> relaxing{};  // layers of the film whose permittivity does
   // Across a current source: its output resistance, or one that keeps charge from building up
   // [ohm]; the voltage source does not feel it.
   double shunt = kInfinity;
@@ -55,6 +58,7 @@ struct Network {
 // has no answer (infinite). Eq. drive.4
 struct Transfer {
   std::complex<double> gap_voltage, source_voltage, current;
+  std::complex<double> film_voltage = 0;  // across the dielectric, its relaxing layers included
 };
 Transfer transfer(const Network& network, DriveControl control, double frequency);
 
@@ -63,6 +67,8 @@ struct DriveResponse {
   double gap_voltage = 0, source_voltage = 0, current = 0;  // peak
   double mean_force = 0;                                    // rectified part [N]
   double ripple = 0;                                        // amplitude at twice the frequency [N]
+  // Peak across the dielectric; what a saturated film keeps from the gap stands on it. Eq. drive.23
+  double film_voltage = 0;
 };
 DriveResponse respond(const Network& network, DriveControl control, double amplitude,
                       double frequency);

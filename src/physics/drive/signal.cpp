@@ -99,29 +99,41 @@ ForceSeries force_series(const Network& network, DriveControl control, const Sig
   const SpectrumArray spectrum = transform(source.value);
   double most = 0;
   for (const auto& c : spectrum) most = std::max(most, std::abs(c));
-  SpectrumArray gap = spectrum, voltage = spectrum, current = spectrum;
+  SpectrumArray gap = spectrum, film = spectrum, voltage = spectrum, current = spectrum;
   for (std::size_t k = 0; k < spectrum.size(); ++k) {
     if (std::abs(spectrum[k]) <= 1e-15 * most) {  // rounding: no line, whatever the transfer
-      gap[k] = voltage[k] = current[k] = 0;
+      gap[k] = film[k] = voltage[k] = current[k] = 0;
       continue;
     }
     const Transfer t = transfer(network, control, static_cast<double>(k) / source.period);
     gap[k] *= t.gap_voltage;
+    film[k] *= t.film_voltage;
     voltage[k] *= t.source_voltage;
     current[k] *= t.current;
   }
   ForceSeries out;
   out.gap_voltage = {source.period, back(std::move(gap), n)};
   const double held = network.gap.held;
-  for (double& v : out.gap_voltage.value) v = std::clamp(v, -held, held);  // Eq. drive.23
+  std::vector<double> film_voltage = back(std::move(film), n);
+  // What the gap does not take stands on the film. Eq. drive.23
+  for (std::size_t i = 0; i < n; ++i) {
+    double& v = out.gap_voltage.value[i];
+    const double taken = std::clamp(v, -held, held);
+    film_voltage[i] += v - taken;
+    v = taken;
+  }
+  // What the source holds is taken as it is. A shunt takes a part of a held current, and the rest
+  // alone flows through the body.
   const bool holds_voltage = control == DriveControl::Voltage;
+  const bool holds_current = !holds_voltage && std::isinf(network.shunt);
   out.source_voltage = holds_voltage ? source : Signal{source.period, back(std::move(voltage), n)};
-  out.current = holds_voltage ? Signal{source.period, back(std::move(current), n)} : source;
+  out.current = holds_current ? source : Signal{source.period, back(std::move(current), n)};
   out.force = out.gap_voltage;
   for (double& f : out.force.value) f = network.gap.force_factor * f * f;
   out.peak_source_voltage = peak(out.source_voltage.value);
   out.peak_current = peak(out.current.value);
   out.peak_gap_voltage = peak(out.gap_voltage.value);
+  out.peak_film_voltage = peak(film_voltage);
   out.mean_force =
       std::accumulate(out.force.value.begin(), out.force.value.end(), 0.0) / static_cast<double>(n);
   return out;

@@ -35,11 +35,13 @@ Signal source_signal(Waveform waveform, double amplitude, double frequency,
                      const Modulation& modulation, double exponent, double period,
                      std::size_t samples);
 
-// Gap voltage, force F = factor V_gap^2 [N], source voltage and current of a source signal. The
-// network is linear, so each line of the source passes by its own transfer. Eq. drive.8
+// Gap voltage, force F = factor V_gap^2 [N], source voltage, and the current through the body (of
+// a current source what its shunt leaves) of a source signal. The network is linear, so each line
+// of the source passes by its own transfer. Eq. drive.8
 struct ForceSeries {
   Signal source_voltage, current, gap_voltage, force;
   double peak_source_voltage = 0, peak_current = 0, peak_gap_voltage = 0;
+  double peak_film_voltage = 0;  // across the dielectric
   double mean_force = 0;
 };
 ForceSeries force_series(const Network& network, DriveControl control, const Signal& source);

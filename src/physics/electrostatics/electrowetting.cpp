@@ -13,16 +13,21 @@ double electrowetting_number(double v, double dielectric_equivalent, double surf
   return kVacuumPermittivity * v * v / (2 * surface_tension * dielectric_equivalent);
 }
 
-double electrowetted_cosine(double cos_rest, double cos_saturated, double eta_peak, bool sine) {
+double electrowetted_cosine(double cos_rest, double cos_saturated, double eta_peak, bool sine,
+                            double held) {
   const double room = cos_saturated - cos_rest;
   if (room <= 0 || eta_peak <= 0) return cos_rest;
-  if (!sine) return cos_rest + room * std::tanh(eta_peak / room);
+  // At a voltage over the peak: the work of the charge, the integral of D dV, over gamma.
+  const auto eta = [&](double u) {
+    return u <= held ? eta_peak * u * u : eta_peak * held * (2 * u - held);
+  };
+  if (!sine) return cos_rest + room * std::tanh(eta(1) / room);
   // Mean over a quarter period by the midpoint rule: spectrally exact for the periodic integrand.
   constexpr int kSteps = 64;
   double sum = 0;
   for (int i = 0; i < kSteps; ++i) {
     const double s = std::sin(0.5 * kPi * (i + 0.5) / kSteps);
-    sum += std::tanh(eta_peak * s * s / room);
+    sum += std::tanh(eta(s) / room);
   }
   return cos_rest + room * sum / kSteps;
 }

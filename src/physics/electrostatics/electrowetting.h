@@ -13,6 +13,9 @@ double electrowetting_number(double v, double dielectric_equivalent, double surf
 // at infinity. eta_peak is that of the peak voltage; for a sine the cosine is averaged over the
 // cycle (droplets of micrometres follow 5 kHz quasi-statically). No effect where c_sat <= c0. Eq.
 // electrostatics.6
-double electrowetted_cosine(double cos_rest, double cos_saturated, double eta_peak, bool sine);
+// held: voltage over the peak from which a film that saturates takes no more charge; eta_peak is
+// that of a film without one. Eq. electrostatics.22
+double electrowetted_cosine(double cos_rest, double cos_saturated, double eta_peak, bool sine,
+                            double held = 1);
 
 }  // namespace papilla::electrostatics

@@ -151,7 +151,8 @@ ContactShares plastic_shares(double pressure, double stress_measure, double yiel
 
 enum class PullStatus { Solved, Collapsed };  // Collapsed: no equilibrium below 1 GPa
 
-// Interface under voltage: pressure = external + pull(pressure). Eq. persson.9
+// Interface under voltage: pressure = external + pull(pressure). Eq. persson.9. Collapsed, the
+// numbers are of the last pressure that was tried, where more pulls than is carried: no state.
 struct PullState {
   PullStatus status = PullStatus::Solved;
   double pressure = 0, pull = 0;  // total and time mean of the electrostatic part [Pa]

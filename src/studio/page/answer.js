@@ -6,7 +6,6 @@ import { fixed, round } from '../plots/numbers.js';
 import { refreshTable, table } from '../plots/tables.js';
 import { ask } from './server.js';
 
-const levels = { first: 'first answer', draft: 'draft', design: 'design level' };
 const state = { session: null, answer: null };
 // Eight pins, eight lines: four colours, each once dashed and once dotted.
 const tint = (i) => colours[2 + i % 4];
@@ -31,8 +30,8 @@ export function showAnswer(answer) {
   if (sets.length) show('modulation', overHumidity(sets, 'modulation ΔF/F_off', { min: 0 }));
   const mn = (key, name, colour, dash) => curve(name, r.points, colour, dash, key, 1e3);
   show('friction', overHumidity([...mn('F_off', 'drive off', colours[5]), ...mn('F_on', 'drive on', colours[1])], 'friction [mN]', { min: 0 }));
-  $('level').textContent = `${levels[answer.step]} · ${answer.seconds < 10 ? Math.round(1000 * answer.seconds) + ' ms' : round(answer.seconds) + ' s'}`;
-  $('level').title = answer.step === 'first' ? 'Refined while nothing moves; the band says what that may change.' : '';
+  $('level').textContent = `${levelOf(answer)} · ${answer.seconds < 10 ? Math.round(1000 * answer.seconds) + ' ms' : round(answer.seconds) + ' s'}`;
+  $('level').title = { first: 'Refined while nothing moves; the band says what that may change.', design: 'At the accuracy that the design states (Accuracy, below All keys): the numbers of papilla evaluate.' }[answer.step] || '';
   showNumbers(r);
   showValues(r.points);
   showPins();
@@ -41,6 +40,10 @@ export function showAnswer(answer) {
   document.documentElement.dataset.revision = answer.revision;
 }
 
+function levelOf({ step, response }) {
+  const f = response.fidelity;
+  return { first: 'first answer', draft: 'draft' }[step] || `as the design asks: ${f.level} level, ${f.grid} pixels, ${f.skins} skins`;
+}
 // Two parts with their names where belief has been run, else the numerical one alone. named: without, where a table's head names them.
 const of = (q, scale = 1, unit = '', named = true) => {
   if (!q) return '–';
@@ -48,13 +51,25 @@ const of = (q, scale = 1, unit = '', named = true) => {
   const parts = q.model === null || q.model === undefined ? error(q.se) : named ? `${error(q.numerical)} numerical ± ${error(q.model)} model` : `${error(q.numerical)} ± ${error(q.model)}`;
   return `${unit ? round(scale * q.value, 4) : fixed(q.value)} ± ${parts}${unit}`;
 };
+// Of one humidity there is no variation.
+const varies = (r) => r.points.length > 1;
+// The one that limits a study, oxide_breakdown_margin (Eq. electrostatics.9): the field that was solved and a bridge or a
+// contact that puts the whole voltage on the thinnest place of the film, whichever leaves less. Null: no film, or no number.
+export function breakdownMargin(points) {
+  const least = (key) => Math.min(...points.map((p) => p[key]).filter((v) => v !== null && v !== undefined));
+  const solved = least('oxide_margin'), bridged = least('bridged_margin'), margin = Math.min(solved, bridged);
+  if (!isFinite(margin)) return null;
+  const risk = solved < 1 ? ': the film breaks down' : margin < 1 ? ': the film is at risk' : '';
+  return round(margin, 3) + risk + (margin < solved && isFinite(solved) ? `; by the solved field ${round(solved, 3)}` : '');
+}
 function showNumbers(r) {
   const s = r.summary, rows = [];
-  if (s.mean_modulation) rows.push(['modulation, mean', of(s.mean_modulation)], ['worst', of(s.worst)], ['variation over humidity', of(s.variation)]);
+  if (s.mean_modulation) rows.push(['modulation, mean', of(s.mean_modulation)], ['worst', of(s.worst)]);
+  if (s.mean_modulation && varies(r)) rows.push(['variation over humidity', of(s.variation)]);
   rows.push(['friction, drive off, mean', of(s.mean_friction, 1e3, ' mN')]);
   if (r.belief) rows.push(['model part of ±', r.belief.members.length ? `${r.belief.members.length} members of belief, as good as ${round(r.belief.effective_members, 3)} equal ones` : `not stated: ${r.belief.status}`]);
-  const margins = r.points.map((p) => p.oxide_margin).filter((v) => v !== null);
-  if (margins.length) rows.push(['breakdown margin of the film', round(Math.min(...margins), 3)]);
+  const margin = breakdownMargin(r.points);
+  if (margin) rows.push(['breakdown margin', margin]);
   r.points.filter((p) => p.status !== 'ok').forEach((p) => rows.push([`at ${Math.round(100 * p.relative_humidity)} %`, p.status]));
   refreshTable($('numbers'), null, rows, [1]);
 }
@@ -91,7 +106,7 @@ function pinTable() {
   frame.setAttribute('role', 'region');
   frame.setAttribute('aria-label', 'Pinned designs side by side');
   frame.append(body);
-  const rows = compared.filter(([, key]) => all.some((r) => r.summary[key])).map(([name, key, scale, unit]) => [name, ...all.map((r) => of(r.summary[key], scale, unit, false))]);
+  const rows = compared.filter(([, key]) => all.some((r) => r.summary[key] && (key !== 'variation' || varies(r)))).map(([name, key, scale, unit]) => [name, ...all.map((r) => of(r.summary[key], scale, unit, false))]);
   const both = all.some((r) => compared.some(([, key]) => r.summary[key] && r.summary[key].model !== null && r.summary[key].model !== undefined));
   table(body, [both ? '± numerical ± model' : '', 'this design', ...known.map((pin) => pin.name)], rows, all.map((_, i) => i + 1));
   return [frame];

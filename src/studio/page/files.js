@@ -4,7 +4,7 @@ import { axis, charts, draw } from '../plots/charts.js';
 import { drawMap } from '../plots/maps.js';
 import { micrometres, round } from '../plots/numbers.js';
 import { table } from '../plots/tables.js';
-import { called, people } from './form.js';
+import { called, machine, people } from './form.js';
 import { get, notice, post, upload } from './server.js';
 import { takeable } from './take.js';
 
@@ -99,7 +99,7 @@ export async function takeScan(file) {
 }
 async function scanDialog(name) {
   const size = make('input', { type: 'text', placeholder: 'as the file says, or 12 um', autocomplete: 'off' }), channel = make('input', { type: 'text', placeholder: 'the one that holds heights', autocomplete: 'off' }), [fill, fillLabel] = check('heights that are no numbers get the mean of those around them'), [asIs, asIsLabel] = check('known, not measured: take no plane away, replace no pixel');
-  const view = make('div'), asked = () => ({ name: name + (channel.value.trim() ? `::${channel.value.trim()}` : ''), size: size.value.replace(/µm/g, 'um'), fill: fill.checked, as_is: asIs.checked });
+  const view = make('div'), asked = () => ({ name: name + (channel.value.trim() ? `::${channel.value.trim()}` : ''), size: machine(size.value), fill: fill.checked, as_is: asIs.checked });
   const look = async () => showScan(view, await post('scan/view', asked()));
   const said = dialog('A measured map', [view, field('Width', size), ...(/\.(gwy|sur)$/i.test(name) ? [field('Channel', channel)] : []), fillLabel, asIsLabel], [['Look again', async () => { await look(); return false; }], ['Use as the texture', async () => { await post('scan/use', asked()); return true; }, true]]);
   try { await look(); } catch (error) { said.textContent = error.message; }

@@ -32,25 +32,9 @@ export function startLab() {
   }));
 }
 
-const percent = (p) => `${round(100 * p, 2)} %`, milli = (force) => round(1000 * force, 3);
+const milli = (force) => round(1000 * force, 3);
 // Of a planned force: median and 95 % interval by belief.
 const expected = (f) => f.length > 2 ? `${milli(f[0])} (${milli(f[1])} to ${milli(f[2])})` : '';
-
-// In the unit of the worth, and as a share of the best.
-function regretOf(regret, best, { scale, unit }) {
-  const shown = `${round(scale * regret, 2)}${unit ? ` ${unit}` : ''}`;
-  return best ? `${shown} (${round(100 * regret / Math.abs(best), 2)} %)` : shown;
-}
-function standing(lab, shown) {
-  const s = lab.standing, best = s.designs.find((d) => d.name === s.best), [was, is] = lab.decisions.slice(-2);
-  const before = !is ? '' : was.best === is.best ? ` (before ${percent(was.p_best)})` : ` (before ${was.best} with ${percent(was.p_best)})`;
-  const now = best ? `${s.best} is the best with ${percent(best.p_best)}${before}, expected regret ${regretOf(best.regret, s.best_worth, shown)}` : 'Nothing is to be decided';
-  // Where members explain the readings, places of a discrepancy are no news.
-  const found = s.explained !== null && s.explained < 0.5 && s.discrepancies.length ? ` No member explains the readings: ${s.discrepancies.map((d) => `${d.where} is ${d.shift > 0 ? '+' : ''}${round(100 * d.shift, 2)} % off`).join(', ')}.` : '';
-  const stop = lab.plans.length && lab.plans[lab.plans.length - 1].stop ? ' Stop: further readings would save less than is worth measuring (stop in lab.toml).' : '';
-  const limits = best && s.keeps_limits === false ? ` It keeps every limit with probability ${percent(best.p_every_limit)}, where ${percent(s.limits_wanted)} are wanted.` : '';
-  return `${now}; ${s.readings} readings of ${lab.told.length} files told.${found}${s.refit ? ' Few members of the belief are left: fit again with readings.csv.' : ''}${limits}${stop}`;
-}
 function showPlan(lab) {
   const newest = lab.plans[lab.plans.length - 1], done = {};
   lab.told.forEach((t) => t.readings.forEach((r) => { done[r.experiment] = (done[r.experiment] || 0) + 1; }));
@@ -88,8 +72,12 @@ export function showLab(now) {
   plan = now.table && now.table.text ? now.table : null;
   $('labtable').disabled = !plan;
   said(busy ? '' : now.trouble);
-  $('labstanding').textContent = busy ? now.noted || '' : lab ? standing(lab, now.worth) : 'What keeps this recommendation from being sure is what nobody has measured. A plan says which few touches settle it; tables and records of a tribometer are told back.';
+  $('labstanding').textContent = busy ? now.noted || '' : lab ? lab.summary || 'Where this lab stands is not in its files, which an earlier version wrote: plan or tell once to see it.' : 'What keeps this recommendation from being sure is what nobody has measured. A plan says which few touches settle it; tables and records of a tribometer are told back.';
   $('labsaid').textContent = now.said || '';
+  // Of files that were told what came of each: it stands before the first heading. A plan begins with one, and is shown as a table.
+  const told = (now.said || '').split(/^# /m)[0].trim();
+  $('labtold').textContent = told;
+  $('labtold').hidden = !told;
   $('labwords').hidden = !now.said;
   if (lab) {
     showPlan(lab);

@@ -3,9 +3,9 @@ import { $ } from '../plots/look.js';
 import { charts, draw } from '../plots/charts.js';
 import { alongLine } from '../plots/curves.js';
 import { drawMap, heightLine, mapFigures, sectionRow } from '../plots/maps.js';
-import { micrometres, round } from '../plots/numbers.js';
+import { level, micrometres, round } from '../plots/numbers.js';
 import { showSolid, startSolid } from '../plots/solid.js';
-import { people, unanswered } from './form.js';
+import { called, people, unanswered } from './form.js';
 import { post } from './server.js';
 import { takeableMap } from './take.js';
 
@@ -62,8 +62,7 @@ function facts(box, rows) {
 }
 
 export function showDimensions(session) {
-  facts($('dimensions'), session.keys.filter((k) => k.path.startsWith('texture.') && k.type === 'number').slice(0, 6)
-    .map((k) => [k.path.replace('texture.', '').replace(/[._]/g, ' '), people(k.value)]));
+  facts($('dimensions'), session.keys.filter((k) => k.path.startsWith('texture.') && k.type === 'number').map((k) => [called(k.path), people(k.value)]));
   const humidities = (session.keys.find((k) => k.path === 'environment.relative_humidity') || { value: '' }).value.split(',').map((t) => parseFloat(t)).filter(isFinite);
   const select = $('rh'), now = humidities.join();
   if (select.dataset.list !== now) {
@@ -110,17 +109,18 @@ async function fetchMaps() {
 }
 
 export function showLook(look) {
-  const share = (v) => v === null ? '–' : round(100 * v, 3) + ' %';
+  // Margins of a stack are of each part alone.
+  const share = (v) => v === null ? '–' : round(100 * v, 3) + ' %', whose = look.of_parts ? ' of a part' : '';
   facts($('look'), [
     ['haze', share(look.haze)],
     ['transmittance', share(look.transmittance) + ', ' + share(look.total_transmittance) + ' in all'],
     ['gloss 60°', look.gloss === null ? '–' : round(look.gloss, 3) + ' GU'],
     ['distinctness of image', share(look.distinctness)],
     look.sparkle ? ['sparkle', share(look.sparkle)] : null,
-    look.colour_shift === null ? null : ['colour shift', round(look.colour_shift, 2)],
-    look.min_hole === null ? null : ['smallest hole', micrometres(look.min_hole)],
-    look.min_wall === null ? null : ['smallest wall', micrometres(look.min_wall)],
-    look.aspect_ratio ? ['aspect ratio', round(look.aspect_ratio, 3)] : null,
+    look.colour_shift === null ? null : ['colour shift', round(level(look.colour_shift, 1), 2)],
+    look.min_hole === null ? null : [`smallest hole${whose}`, micrometres(look.min_hole)],
+    look.min_wall === null ? null : [`smallest wall${whose}`, micrometres(look.min_wall)],
+    look.aspect_ratio ? [`aspect ratio${whose}`, round(look.aspect_ratio, 3)] : null,
     look.warning ? ['', look.warning, true] : null,
   ]);
 }

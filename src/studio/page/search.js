@@ -1,7 +1,7 @@
 // The search: what may change and what is wanted, the front as it grows, designs to open.
 import { $ } from '../plots/look.js';
 import { charts, draw, errorBars } from '../plots/charts.js';
-import { found, foundChart, foundTable } from '../plots/found.js';
+import { calledDesign, found, foundChart, foundTable } from '../plots/found.js';
 import { round, withBar } from '../plots/numbers.js';
 import { parallel } from '../plots/parallel.js';
 import { table } from '../plots/tables.js';
@@ -9,7 +9,7 @@ import { called, machine, people } from './form.js';
 import { ask, post } from './server.js';
 import { question } from './words.js';
 
-const state = { wish: null, search: null };
+const state = { wish: null, search: null, bar: { folder: '', share: 0 } };
 const make = (tag, more = {}) => Object.assign(document.createElement(tag), more);
 const summaries = ['mean', 'worst', 'variation', 'range', 'std', 'best', 'first', 'last'];
 
@@ -183,18 +183,24 @@ export function showSearch(search) {
     $('searches').replaceChildren(...numbers.map((n) => new Option(String(n).padStart(3, '0'), n)));
   }
   $('searches').value = search.number;
-  $('report').hidden = !search.folder;
-  if (search.folder) { $('report').href = `report/${search.folder}`; $('report').textContent = search.state === 'finished' ? 'Report' : 'Report so far'; }
+  const finished = search.state === 'finished', reported = finished || search.done > 0;
+  $('report').hidden = !reported;
+  if (reported) { $('report').href = `report/${search.folder}`; $('report').textContent = finished ? 'Report' : 'Report so far'; }
   $('progress').hidden = $('frontbox').hidden = !search.folder;
   const fingers = search.fingers || [];
   $('felt').textContent = fingers.length > 1 ? `Of the finger at hand; the search below judges by ${fingers.join(', ')}.` : '';
   if (!search.folder) return;
   // A search that runs says how far the whole of it is, its confirmation and checks included.
-  const told = search.progress, share = told ? told.share : search.state === 'finished' ? 1 : search.total ? Math.min(1, search.done / search.total) : 0;
+  const told = search.progress, share = furthest(search.folder, told ? told.share : finished ? 1 : search.total ? Math.min(1, search.done / search.total) : 0);
   $('bar').style.setProperty('--share', `${100 * share}%`);
   $('bar').setAttribute('aria-valuenow', Math.round(100 * share));
   $('stage').textContent = search.state === 'failed' ? search.trouble : `${search.done} of ${search.total} designs` + (running ? `; ${stages[search.stage] || ''}` : '') + (told && told.seconds_left !== null ? `, about ${time(told.seconds_left)} left` : '') + `; ${search.folder}`;
   showFront(search);
+}
+// Of a search whose time was estimated too short the share that is done becomes less: its bar waits.
+function furthest(folder, share) {
+  state.bar = { folder, share: state.bar.folder === folder ? Math.max(state.bar.share, share) : share };
+  return state.bar.share;
 }
 // Every design that the search looked at, over all its numbers.
 function showAll(searched, front, search, wanted) {
@@ -211,6 +217,8 @@ function showAll(searched, front, search, wanted) {
     evaluation: p.evaluation,
   })), open);
 }
+// Where no design was judged yet; a search that failed says why beside its bar.
+const waits = { running: 'The first designs are on their way.', paused: 'No design was judged yet.', finished: 'No design was judged.' };
 function showFront(search) {
   const all = found(search), { searched, confirmed, front, names, objectives } = all, { sets, scales } = foundChart(all);
   if (charts.pareto && charts.pareto.$names === names.join()) {
@@ -229,13 +237,15 @@ function showFront(search) {
         onHover: (event, items) => { event.native.target.style.cursor = items.length ? 'pointer' : ''; },
         plugins: {
           legend: { labels: { usePointStyle: true, boxHeight: 7 } },
-          tooltip: { callbacks: { label: (item) => ['x', 'y'].slice(0, objectives.length).map((at, k) => `${objectives[k]} ${item.raw['e' + at] ? withBar(item.raw[at], item.raw['e' + at]) : round(item.raw[at], 4)}`).concat(state.search.variables.map((v, i) => `${called(v.path)} ${people(item.raw.values[i])}`)) } },
+          tooltip: { filter: (item, i, items) => items.findIndex((other) => other.raw === item.raw) === i, callbacks: { label: (item) => (item.raw.front ? [calledDesign(item.raw)] : []).concat(['x', 'y'].slice(0, objectives.length).map((at, k) => `${objectives[k]} ${item.raw['e' + at] ? withBar(item.raw[at], item.raw['e' + at]) : round(item.raw[at], 4)}`), state.search.variables.map((v, i) => `${called(v.path)} ${people(item.raw.values[i])}`)) } },
         },
       },
     });
     charts.pareto.$names = names.join();
   }
-  $('fronthint').textContent = searched.length ? (confirmed.length ? 'Bars: ± one standard error. Points of the search are of a cheaper level: compare them with each other only. ' : 'Searched at a cheap level: the finalists are confirmed at the end. ') + 'Select a point, or Open, to make it the design at hand.' : 'The first designs are on their way.';
+  $('fronthint').textContent = searched.length ? (confirmed.length ? 'Bars: ± one standard error. Points of the search are of a cheaper level: compare them with each other only. ' : 'Searched at a cheap level: the finalists are confirmed at the end. ') + 'Select a point, or Open, to make it the design at hand.' : waits[search.state] || '';
+  $('recommendation').textContent = search.recommended ? people(search.recommended.words) : '';
+  $('recommendation').hidden = !$('recommendation').textContent;
   showAll(searched, front, search, objectives);
   // The same by keys and for those who hear the page.
   const list = confirmed.length ? confirmed : front;
@@ -243,7 +253,8 @@ function showFront(search) {
   const body = table($('frontlist'), [''].concat(shown.head), shown.rows.map((r) => [''].concat(r)));
   list.forEach((p, i) => {
     const button = make('button', { type: 'button', textContent: 'Open' });
-    button.setAttribute('aria-label', `open the design with ${names[0]} ${round(p.x, 3)}`);
+    button.setAttribute('aria-label', p.front ? `open ${calledDesign(p)}` : `open the design with ${names[0]} ${round(p.x, 3)}`);
+    body.rows[i].classList.toggle('recommended', Boolean(p.recommended));
     button.addEventListener('click', () => open(p));
     body.rows[i].cells[0].append(button);
   });

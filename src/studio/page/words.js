@@ -8,7 +8,7 @@ const own = {
   'variation over humidity': 'standard deviation of the modulation over the humidities, over its mean: 0 is the same on a dry day and on a damp one',
   'friction, drive off, mean': 'friction of the finger without the drive, the mean over the humidities',
   'friction, drive off': 'friction of the finger without the drive, the mean over the humidities',
-  'breakdown margin of the film': 'strength of the film over the largest field in it: at 1 it breaks down',
+  'breakdown margin': 'strength of the film over the largest field in it, where a bridge or a contact puts the whole voltage on its thinnest place, or by the field that was solved, whichever leaves less: what a limit on oxide_breakdown_margin and pareto.csv count. Below 1 the film is at risk; where the solved field alone is beyond its strength, it breaks down',
   'model part of ±': 'what is not known of the finger and of the model: the spread of the answer over the members of its belief; the numerical part is of skins, pixels and methods',
   'p(best)': 'probability that this design is the best of the finalists, over what is not known of finger and model',
   'expected regret': 'what this design is worth less than the best there, in the mean over what is not known of finger and model',
@@ -16,6 +16,9 @@ const own = {
   'smallest hole': 'width of the narrowest place that is cut away: what a process has to open',
   'smallest wall': 'width of the narrowest place that stands: what a process has to leave',
   'aspect ratio': 'depth over the narrowest width',
+  'smallest hole of a part': 'of each part of the stack by itself: width of the narrowest place that it cuts away; where parts cross, narrower places may be left',
+  'smallest wall of a part': 'of each part of the stack by itself: width of the narrowest place that it leaves; where parts cross, narrower places may be left',
+  'aspect ratio of a part': 'depth over the narrowest width, of each part of the stack by itself',
 };
 let words = {};
 const meaning = (text) => own[text] || words[text.replace(/ /g, '_')] || (text.match(/^(\w+)\((\w+)\)$/) && words[RegExp.$2]);

@@ -1,15 +1,19 @@
 // Curves over humidity with their bands, and heights along a line.
 import { colours } from './look.js';
-import { axis } from './charts.js';
+import { axis, errorBars } from './charts.js';
 import { dimensionLines, dimensionPlugin, roomForRows } from './dimensions.js';
 // Without the part of the finger's parameters, which moves all designs together.
 export const ownError = (q) => Math.sqrt(Math.max(0, q.se * q.se - Math.pow(q.parts.parameters || 0, 2)));
-// scale: of the quantity to the unit of its axis.
+// scale: of the quantity to the unit of its axis. Two standard errors either way: as a band, and of a single point, which has
+// none, as a bar.
 export function curve(name, points, tint, dash, quantity = 'modulation', scale = 1) {
-  const at = points.filter((p) => p[quantity]).map((p) => ({ x: 100 * p.relative_humidity, y: scale * p[quantity].value, se: scale * ownError(p[quantity]) }));
+  const at = points.filter((p) => p[quantity]).map((p) => {
+    const se = scale * ownError(p[quantity]);
+    return { x: 100 * p.relative_humidity, y: scale * p[quantity].value, se, ex: 0, ey: 2 * se };
+  });
   const common = { borderColor: tint, backgroundColor: tint, pointRadius: 0, borderWidth: 0, tension: 0 };
   return [
-    Object.assign({}, common, { label: name, data: at, borderWidth: 2.5, pointRadius: 3.5, borderDash: dash || [] }),
+    Object.assign({}, common, { label: name, data: at, bars: at.length === 1, borderWidth: 2.5, pointRadius: 3.5, borderDash: dash || [] }),
     Object.assign({}, common, { band: true, label: name + ' +', data: at.map((p) => ({ x: p.x, y: p.y + 2 * p.se })) }),
     Object.assign({}, common, { band: true, label: name + ' −', data: at.map((p) => ({ x: p.x, y: p.y - 2 * p.se })), fill: '-1', backgroundColor: tint + '2b' }),
   ];
@@ -18,6 +22,7 @@ export function curve(name, points, tint, dash, quantity = 'modulation', scale =
 export const overHumidity = (sets, quantity, more = {}) => ({
   type: 'line',
   data: { datasets: sets },
+  plugins: [errorBars],
   options: {
     parsing: false,
     interaction: { mode: 'nearest', axis: 'x', intersect: false },

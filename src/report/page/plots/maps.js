@@ -94,19 +94,17 @@ export function mapFigures(box, maps) {
     drawMap(canvas, map, map.unit, 1, undefined, root);
   });
 }
-// The row of a map of heights that a section is of; without one that with the least sum, through the middle of its holes.
+// The row of a map of heights that a section is of; without one, of the rows that reach over nearly all the heights that some
+// row does, the one that is farthest from the level ground of the flattest row: through the middle of holes and of particles.
 export function sectionRow(map, section) {
   if (section) return Math.min(map.ny - 1, Math.floor(section.at * map.ny));
-  const values = decode(map);
+  const values = decode(map), rows = Array.from({ length: map.ny }, (_, y) => values.subarray(y * map.nx, (y + 1) * map.nx));
+  const spans = rows.map((row) => Math.max(...row) - Math.min(...row)), nearly = 0.9 * Math.max(...spans);
+  const ground = rows[spans.indexOf(Math.min(...spans))].slice().sort()[map.nx >> 1];
+  const away = rows.map((row, y) => spans[y] < nearly ? -1 : row.reduce((sum, v) => sum + Math.abs(v - ground), 0));
   // Rows through like features are equal but for rounding: the first of them, so that the line stays as the design moves.
-  const alike = 1e-6 * map.nx * (map.high - map.low);
-  let row = 0, low = Infinity;
-  for (let y = 0; y < map.ny; ++y) {
-    let sum = 0;
-    for (let x = 0; x < map.nx; ++x) sum += values[y * map.nx + x];
-    if (sum < low - alike) [row, low] = [y, sum];
-  }
-  return row;
+  const most = Math.max(...away) - 1e-6 * map.nx * (map.high - map.low);
+  return away.findIndex((v) => v >= most);
 }
 // Heights along a line [µm, nm]: through the middle of a feature on its own fine pixels where there is such a section, else
 // along a row of the map.

@@ -15,7 +15,6 @@ export function startSolid() {
   // Without a graphics processor smooth edges take longer than all the rest.
   const antialias = Boolean(draws({ failIfMajorPerformanceCaveat: true }));
   solid.renderer = new THREE.WebGLRenderer({ antialias, preserveDrawingBuffer: true });
-  solid.renderer.setClearColor(ink('tint'));
   solid.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
   solid.renderer.domElement.setAttribute('aria-hidden', 'true');
   box.appendChild(solid.renderer.domElement);
@@ -159,6 +158,7 @@ export function showSolid(map) {
   $('stretch').textContent = round(stretch);
   if (!solid.ready) return;
   solid.tools.stretch.value = Math.round(100 * Math.log10(stretch));
+  solid.renderer.setClearColor(ink('tint'));  // of the light or the dark of now
   clear();
   const { nx, ny } = map, unit = 1.6 / Math.max(map.lx, map.ly), first = Math.min(ny - 2, Math.round(solid.section * (ny - 1)));
   const at = (x, y, z) => [((x + 0.5) / nx - 0.5) * map.lx * unit, z, (0.5 - (y + 0.5) / ny) * map.ly * unit];

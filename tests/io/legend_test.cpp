@@ -1,5 +1,5 @@
 // Pictures of fields with their legend, read back dot by dot as a person reads them.
-#include "report/legend.h"
+#include "geometry/io/legend.h"
 
 #include <gtest/gtest.h>
 
@@ -129,6 +129,19 @@ TEST(Legends, SayTheLeastTheMostAndTheLengthOfTheBar) {
   expect_legend({1e-6, "MPa"}, small, 1.25e-3, 7.5e12, "1.25e-09", "7.5e+06 MPa", "2 um");
   expect_legend({100, "%"}, fine, 0, 0.348, "0", "34.8 %", "5 um");
   expect_legend({1e6, "um"}, fine, -9.17e-6, 2e-6, "-9.17", "2 um", "5 um");
+}
+
+// A maker reads off the picture how deep and how wide the texture is.
+TEST(Legends, OfHeightsAreInNanometres) {
+  Heightmap h{{64, 32, 10e-6, 5e-6}, std::vector<double>(64 * 32, 0.0)};
+  h(3, 4) = -350e-9;
+  const FieldPicture preview = picture_of_heights(h);
+  const Shown shown(h.grid, h.z, {1e9, "nm"});
+  EXPECT_EQ(preview.rgb, shown.picture.rgb);
+  const int field = preview.height - 30 * shown.dots;
+  EXPECT_EQ(shown.text(shown.dots, field + 12 * shown.dots, 4), "-350");
+  EXPECT_EQ(shown.text(preview.width - 24 * shown.dots, field + 12 * shown.dots, 4), "0 nm");
+  EXPECT_EQ(shown.text(shown.dots, field + 21 * shown.dots, 4), "2 um");
 }
 
 TEST(Legends, HaveTheColoursOfTheirFieldFromLeastToMost) {

@@ -1,50 +1,17 @@
-#include "report/legend.h"
+#include "geometry/io/legend.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <utility>
 
 #include "geometry/io/files.h"
+#include "geometry/io/glyphs.h"
 
-namespace papilla::report {
+namespace papilla::geometry {
 namespace {
-
-constexpr int kGlyphWidth = 5, kGlyphHeight = 7;
-
-// Seven rows of five dots each, a bit a dot, the left one first.
-using Glyph = std::array<std::uint8_t, kGlyphHeight>;
-
-const Glyph* glyph(char c) {
-  static const std::map<char, Glyph> glyphs{
-      {'0', {0x0e, 0x11, 0x13, 0x15, 0x19, 0x11, 0x0e}},
-      {'1', {0x04, 0x0c, 0x04, 0x04, 0x04, 0x04, 0x0e}},
-      {'2', {0x0e, 0x11, 0x01, 0x02, 0x04, 0x08, 0x1f}},
-      {'3', {0x1f, 0x02, 0x04, 0x02, 0x01, 0x11, 0x0e}},
-      {'4', {0x02, 0x06, 0x0a, 0x12, 0x1f, 0x02, 0x02}},
-      {'5', {0x1f, 0x10, 0x1e, 0x01, 0x01, 0x11, 0x0e}},
-      {'6', {0x06, 0x08, 0x10, 0x1e, 0x11, 0x11, 0x0e}},
-      {'7', {0x1f, 0x01, 0x02, 0x04, 0x08, 0x08, 0x08}},
-      {'8', {0x0e, 0x11, 0x11, 0x0e, 0x11, 0x11, 0x0e}},
-      {'9', {0x0e, 0x11, 0x11, 0x0f, 0x01, 0x02, 0x0c}},
-      {'.', {0x00, 0x00, 0x00, 0x00, 0x00, 0x0c, 0x0c}},
-      {'-', {0x00, 0x00, 0x00, 0x1f, 0x00, 0x00, 0x00}},
-      {'+', {0x00, 0x04, 0x04, 0x1f, 0x04, 0x04, 0x00}},
-      {'%', {0x18, 0x19, 0x02, 0x04, 0x08, 0x13, 0x03}},
-      {'e', {0x00, 0x00, 0x0e, 0x11, 0x1f, 0x10, 0x0e}},
-      {'n', {0x00, 0x00, 0x16, 0x19, 0x11, 0x11, 0x11}},
-      {'m', {0x00, 0x00, 0x1a, 0x15, 0x15, 0x15, 0x15}},
-      {'u', {0x00, 0x00, 0x11, 0x11, 0x11, 0x13, 0x0d}},
-      {'k', {0x10, 0x10, 0x12, 0x14, 0x18, 0x14, 0x12}},
-      {'M', {0x11, 0x1b, 0x15, 0x15, 0x11, 0x11, 0x11}},
-      {'P', {0x1e, 0x11, 0x11, 0x1e, 0x10, 0x10, 0x10}},
-      {'a', {0x00, 0x00, 0x0e, 0x01, 0x0f, 0x11, 0x0f}},
-  };
-  const auto found = glyphs.find(c);
-  return found == glyphs.end() ? nullptr : &found->second;
-}
 
 class Sheet {
  public:
@@ -60,19 +27,19 @@ class Sheet {
   // `dots`: pixels of a dot.
   void write(int left, int top, int dots, const std::string& text) {
     for (char c : text) {
-      if (const Glyph* g = glyph(c)) {
-        for (int y = 0; y < kGlyphHeight * dots; ++y) {
-          for (int x = 0; x < kGlyphWidth * dots; ++x) {
-            if ((*g)[static_cast<std::size_t>(y / dots)] >> (kGlyphWidth - 1 - x / dots) & 1)
+      if (const GlyphRows* rows = glyph_rows(c)) {
+        for (int y = 0; y < kGlyphRows * dots; ++y) {
+          for (int x = 0; x < kGlyphColumns * dots; ++x) {
+            if ((*rows)[static_cast<std::size_t>(y / dots)] >> (kGlyphColumns - 1 - x / dots) & 1)
               put(left + x, top + y, {0, 0, 0});
           }
         }
       }
-      left += (kGlyphWidth + 1) * dots;
+      left += kGlyphAdvance * dots;
     }
   }
   static int text_width(const std::string& text, int dots) {
-    return static_cast<int>(text.size()) * (kGlyphWidth + 1) * dots;
+    return static_cast<int>(text.size()) * kGlyphAdvance * dots;
   }
   std::vector<std::uint8_t> take() { return std::move(rgb_); }
 
@@ -98,7 +65,7 @@ FieldPicture picture_with_legend(const Grid& grid, const std::vector<double>& va
   for (double& v : coloured) v = *high > *low ? share((v - *low) / (*high - *low)) : 1;
   FieldPicture out;
   const std::vector<std::uint8_t> field = render_field(grid, coloured, out.width, out.height);
-  const int dots = std::max(1, out.width / 256), line = (kGlyphHeight + 3) * dots;
+  const int dots = std::max(1, out.width / 256), line = (kGlyphRows + 3) * dots;
   const int top = out.height;
   out.height += 3 * line;
   Sheet sheet(out.width, out.height);
@@ -122,4 +89,13 @@ FieldPicture picture_with_legend(const Grid& grid, const std::vector<double>& va
   return out;
 }
 
-}  // namespace papilla::report
+FieldPicture picture_of_heights(const Heightmap& h) {
+  return picture_with_legend(h.grid, h.z, {1e9, "nm"});
+}
+
+void write_png(const std::string& path, const Heightmap& h) {
+  const FieldPicture picture = picture_of_heights(h);
+  write_png_rgb(path, picture.width, picture.height, picture.rgb);
+}
+
+}  // namespace papilla::geometry

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/rooms.h"
-#include "geometry/grid.h"
+#include "geometry/heightmap.h"
 
-namespace papilla::report {
+namespace papilla::geometry {
 
 struct FieldPicture {
   int width = 0, height = 0;
@@ -25,4 +25,7 @@ struct FieldScale {
 FieldPicture picture_with_legend(const Grid& grid, const std::vector<double>& values,
                                  const FieldScale& shown);
 
-}  // namespace papilla::report
+// Heights of a preview, in nm from the map's own zero.
+FieldPicture picture_of_heights(const Heightmap& h);
+
+}  // namespace papilla::geometry
