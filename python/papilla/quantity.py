@@ -107,8 +107,10 @@ class Quantity(NDArrayOperatorsMixin):
         plain = [np.asarray(_value_of(x)) for x in inputs]
         if ufunc in _COMPARISONS:
             return ufunc(*plain)
-        if ufunc not in _SLOPES or any(x.dtype.kind not in "fiub" for x in plain):
+        if any(x.dtype.kind not in "fiub" for x in plain):
             return NotImplemented
+        if ufunc not in _SLOPES:
+            raise _losing(ufunc)
         plain = [x.astype(np.float64) for x in plain]
         value = np.asarray(ufunc(*plain))
         terms = _terms(inputs, [(x, slope(*plain)) for x, slope in zip(inputs, _SLOPES[ufunc]) if isinstance(x, Quantity)])
@@ -124,7 +126,7 @@ class Quantity(NDArrayOperatorsMixin):
     def __array_function__(self, function: Callable[..., Any], types: Any, inputs: tuple[Any, ...],
                            options: dict[str, Any]) -> Any:
         if function not in _OF_VALUES:
-            raise TypeError(f"numpy.{function.__name__} would lose the errors of a Quantity: take its .value")
+            raise _losing(function)
         return function(*map(_value_of, inputs), **{name: _value_of(x) for name, x in options.items()})
 
     def __getitem__(self, chosen: Any) -> Quantity:
@@ -160,6 +162,10 @@ class Quantity(NDArrayOperatorsMixin):
         return Quantity, (self.value, self.error, dict(self.parts), self.numerical, self.model, self.unit)
 
     __hash__ = None  # type: ignore[assignment]
+
+
+def _losing(function: Any) -> TypeError:
+    return TypeError(f"numpy.{function.__name__} would lose the errors of a Quantity: take its .value")
 
 
 def _value_of(x: Any) -> Any:

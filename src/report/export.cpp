@@ -125,11 +125,20 @@ Json record(const Study& study, const ExportOptions& options, const Export& resu
   return out;
 }
 
+// The layout of an array is drawn period by period: its files alone have no pixels.
+bool has_pixels(const Export& result) {
+  return !result.array ||
+         !std::all_of(result.files.begin(), result.files.end(), [](const ExportedFile& file) {
+           return file.format == "gds" || file.format == "oasis";
+         });
+}
+
 std::string size_line(const Export& result) {
   const Grid& grid = result.heightmap.grid;
-  std::string out =
-      fmt::format("size {:.6g} x {:.6g} um, {} x {} pixels of {:.4g} x {:.4g} nm", 1e6 * grid.lx,
-                  1e6 * grid.ly, grid.nx, grid.ny, 1e9 * grid.dx(), 1e9 * grid.dy());
+  std::string out = fmt::format("size {:.6g} x {:.6g} um", 1e6 * grid.lx, 1e6 * grid.ly);
+  if (has_pixels(result))
+    out += fmt::format(", {} x {} pixels of {:.4g} x {:.4g} nm", grid.nx, grid.ny, 1e9 * grid.dx(),
+                       1e9 * grid.dy());
   if (result.cells_x > 0) {
     out += fmt::format(", {} x {} periods of {:.6g} x {:.6g} um", result.cells_x, result.cells_y,
                        1e6 * grid.lx / result.cells_x, 1e6 * grid.ly / result.cells_y);

@@ -51,6 +51,11 @@ TEST(ExportReport, ForPeopleHasTheSizeInItsUnits) {
             "size 4 x 9 um, 2 x 3 pixels of 2000 x 3000 nm, 8 x 4 periods of 0.5 x 2.25 um\n"
             "smallest hole 2 um, smallest wall 1.5 um (pixel 0.03 um); mean(modulation) 0.2, of "
             "the design 0.25: 20 % off\n");
+  // A layout of an array has no pixels.
+  e.array = LayoutArray{};
+  e.files = {{"gds", "out/texture.gds"}, {"oasis", "out/texture.oas"}};
+  EXPECT_TRUE(
+      export_text(e, "out", {}).ends_with("size 4 x 9 um, 8 x 4 periods of 0.5 x 2.25 um\n"));
 }
 
 TEST(ExportReport, AVerdictIsALineAFileAndALineAFault) {
