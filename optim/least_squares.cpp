@@ -114,6 +114,16 @@ Eigen::MatrixXd inverse_information(const Eigen::MatrixXd& jacobian, const FitCo
          length.cwiseInverse().asDiagonal();
 }
 
+Eigen::MatrixXd jacobian_of(const std::vector<FitDirection>& directions) {
+  const auto n = static_cast<Eigen::Index>(directions.front().weights.size());
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(directions.size()), n);
+  for (Eigen::Index k = 0; k < out.rows(); ++k) {
+    const FitDirection& d = directions[static_cast<std::size_t>(k)];
+    out.row(k) = d.singular_value * Eigen::Map<const Eigen::RowVectorXd>(d.weights.data(), n);
+  }
+  return out;
+}
+
 // Fills covariance and correlation of the parameters inside their bounds; returns the standard
 // errors of x, infinite for the others.
 std::vector<double> fill_covariance(const Attempt& found, const FitCoordinates& c,
@@ -197,7 +207,7 @@ LeastSquaresFit least_squares(const std::vector<FitParameter>& parameters, int r
   const std::size_t n = parameters.size();
   const FitCoordinates c(parameters);
   TrustRegion solver(c, residuals, function, options);
-  const Attempt found = best_attempt(solver, c, options.iterations);
+  Attempt found = best_attempt(solver, c, options.iterations);
   const FitSolution& best = found.solution;
 
   LeastSquaresFit out;
@@ -213,8 +223,14 @@ LeastSquaresFit least_squares(const std::vector<FitParameter>& parameters, int r
   out.correlation.assign(n * n, 0);
   std::vector<double> se(n, kInf);  // of x
   if (found.has_jacobian) {
-    se = fill_covariance(found, c, out);
     out.directions = directions(found.jacobian);
+    if (options.directions) {
+      std::vector<double> values;
+      for (std::size_t i = 0; i < n; ++i) values.push_back(c.from(i, best.x[i]));
+      out.directions = options.directions(values, out);
+      found.jacobian = jacobian_of(out.directions);
+    }
+    se = fill_covariance(found, c, out);
   } else {
     out.converged = false;
     out.message += "; no Jacobian at the best values";

@@ -30,6 +30,7 @@ enum class ResidualVariance {
 };
 
 struct LeastSquaresFit;
+struct FitDirection;
 
 struct LeastSquaresOptions {
   int iterations = 200;
@@ -44,6 +45,11 @@ struct LeastSquaresOptions {
   // Given the fit with intervals by standard errors, says whether profiles are walked from it,
   // which cost many times the descent. Empty: they are.
   std::function<bool(const LeastSquaresFit&)> walks_profiles{};
+  // Given the best values and the fit with its directions by differences there, says what the data
+  // tell apart: of answers that jitter, differences are partly jitter. Empty: the differences.
+  std::function<std::vector<FitDirection>(const std::vector<double>& values,
+                                          const LeastSquaresFit& by_differences)>
+      directions{};
   int threads = 1;  // that differences may use; the residual function must then be re-entrant
   std::function<void(const std::string&)> note;  // progress for people; may be empty
 };
@@ -64,8 +70,8 @@ struct ParameterFit {
 // One singular direction of the whitened Jacobian of the data, in units of each parameter's prior
 // width (a quarter of the range without a prior). Eq. calibration.4
 struct FitDirection {
-  double singular_value =
-      0;  // standard deviations of the data per prior width; < 1: not identified
+  // Standard deviations of the data per prior width; < 1: not identified.
+  double singular_value = 0;
   std::vector<double> weights;  // one per parameter, unit length
 };
 

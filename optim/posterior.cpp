@@ -54,10 +54,13 @@ class Sampler {
           if (!function(p, r)) return false;
           trials_.push_back({{p.begin(), p.end()}, {r.begin(), r.end()}});
           take_bands_off(r, options_.bands);
+          options_.common.whiten(r);
           return true;
         }) {}
 
   Posterior run(const LeastSquaresFit* first) {
+    out_.common = options_.common;
+    out_.groups = options_.groups;
     find_minima(first);
     out_.variance_factor = variance_factor(fits_.front().chi2 + fits_.front().prior_chi2);
     of_.emplace(GuessedPosterior{coordinates_, parameters_, options_, out_.variance_factor});
@@ -129,13 +132,8 @@ class Sampler {
   // The bell of a minimum: of the data's information, that of the priors, and all by the variance
   // factor, of parameters at a bound too. Eq. calibration.2, calibration.7
   Bell bell_of(const LeastSquaresFit& fit) const {
-    const auto n = static_cast<Eigen::Index>(parameters_.size());
-    Eigen::MatrixXd precision = Eigen::MatrixXd::Zero(n, n);
-    for (const FitDirection& d : fit.directions) {
-      const Eigen::Map<const Eigen::VectorXd> v(d.weights.data(), n);
-      precision += square(d.singular_value) * v * v.transpose();
-    }
-    for (Eigen::Index i = 0; i < n; ++i)
+    Eigen::MatrixXd precision = information_of(fit.directions);
+    for (Eigen::Index i = 0; i < precision.rows(); ++i)
       precision(i, i) += of_->prior_precision(static_cast<std::size_t>(i));
     return {of_->at(fit.values()), precision / out_.variance_factor};
   }
@@ -264,6 +262,7 @@ class Sampler {
     ++out_.evaluations;
     if (!function_(values, misses)) return;
     ++out_.asked;
+    options_.common.colour(misses);
     for (std::size_t k = 0; held && k < misses.size(); ++k) {
       const auto row = static_cast<Eigen::Index>(k);
       if (before.variance(row) < kLeastOpen) continue;
@@ -310,11 +309,10 @@ class Sampler {
   double least_sum() const {
     double out = kInfinity;
     for (const PosteriorTrial& trial : trials_) {
-      double sum = -2 * out_.variance_factor * of_->log_prior(of_->at(trial.values));
-      for (std::size_t k = 0; k < trial.answers.size(); ++k)
-        sum += square(options_.bands.empty() ? trial.answers[k]
-                                             : options_.bands[k].miss(trial.answers[k]));
-      out = std::min(out, sum);
+      std::vector<double> misses = trial.answers;
+      take_bands_off(misses, options_.bands);
+      out = std::min(out, options_.common.terms(misses, {}, 1, {}).front().squares -
+                              2 * out_.variance_factor * of_->log_prior(of_->at(trial.values)));
     }
     return out;
   }
@@ -344,21 +342,13 @@ Posterior sample_posterior(const std::vector<FitParameter>& parameters, int resi
   return Sampler(parameters, residuals, function, options, std::move(trials)).run(first);
 }
 
-double log_likelihood(double miss, double open, double variance_factor) {
-  return -0.5 * (std::log1p(open / variance_factor) + square(miss) / (variance_factor + open));
-}
-
-double PosteriorSample::log_likelihood(std::size_t row, double variance_factor) const {
-  return optim::log_likelihood(misses[row], open[row], variance_factor);
-}
-
 void reweigh(Posterior& posterior, double variance_factor) {
   const auto normalised_ratios = [&](std::vector<PosteriorSample>& samples) {
     std::vector<double> logs;
     for (PosteriorSample& s : samples) {
-      s.log_ratio = -s.prior_sum / (2 * variance_factor) - s.log_proposal;
-      for (std::size_t k = 0; k < s.misses.size(); ++k)
-        s.log_ratio += s.log_likelihood(k, variance_factor);
+      s.log_ratio =
+          posterior.common.terms(s.misses, s.open, variance_factor, {}).front().log_likelihood() -
+          s.prior_sum / (2 * variance_factor) - s.log_proposal;
       logs.push_back(s.log_ratio);
     }
     return normalised(logs);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/rooms.h"
+#include "optim/common_errors.h"
 #include "optim/least_squares.h"
 #include "optim/row_quadratics.h"
 
@@ -22,6 +23,7 @@ struct PosteriorOptions {
   std::uint64_t seed = 1;
   // What the function's answers are held against, one per row; empty: against 0.
   std::vector<RowBand> bands;
+  CommonErrors common;  // of the rows, beside an error of deviation 1 of each
   // Rows that are left out together, where half of the draws are to know of it; empty: none are.
   std::vector<std::vector<std::size_t>> groups;
   LeastSquaresOptions fit;  // of each start
@@ -52,12 +54,7 @@ struct PosteriorSample {
   double weight = 0;            // of all samples 1
   double log_proposal = 0;
   double log_ratio = 0;  // of posterior over proposal, both up to a constant of all samples
-
-  // Of a row, ln of the mean of exp(-miss^2/2f) over what is open of it.
-  double log_likelihood(std::size_t row, double variance_factor) const;
 };
-// The same of a miss with a variance of its own.
-double log_likelihood(double miss, double open, double variance_factor);
 
 struct Posterior {
   std::vector<Valley> valleys;  // best first
@@ -71,6 +68,8 @@ struct Posterior {
   // Root mean square of what the guess missed the later answers by, in its own standard deviations.
   double guess_error = 0;
   double variance_factor = 1;
+  CommonErrors common;                           // of the rows
+  std::vector<std::vector<std::size_t>> groups;  // of rows that are left out together
   int evaluations = 0;
 };
 
@@ -94,16 +93,15 @@ double log_sum(const std::vector<double>& logarithms);
 std::vector<double> normalised(const std::vector<double>& logarithms);
 double effective_number(const std::vector<double>& weights);
 
-// Logarithmic predictive score of groups of residuals, each left out: log p(y_g | all others),
-// one per group with the standard deviation that the halves leave it, and the least effective
-// number of samples that one of them stands on. Residuals are whitened; log_sd: the sum of the
-// logarithms of the standard deviations of each group. Eq. calibration.9
+// Logarithmic predictive score of the posterior's groups of rows, each left out: log p(y_g | all
+// others), one per group with the standard deviation that the halves leave it, and the least
+// effective number of samples that one of them stands on. log_sd: the sum of the logarithms of the
+// own standard deviations of each group's rows. Eq. calibration.9
 struct LeftOut {
   std::vector<double> scores, errors;
   double least_effective = 0;
 };
-LeftOut leave_out(const Posterior& posterior, const std::vector<std::vector<std::size_t>>& groups,
-                  const std::vector<double>& log_sd);
+LeftOut leave_out(const Posterior& posterior, const std::vector<double>& log_sd);
 // Weights of hypotheses from their scores on the same groups: the mean over resampled groups, and
 // over what each score may be off, of exp(score), normalised (pseudo-BMA+, Yao et al. 2018).
 // Eq. calibration.9

@@ -21,14 +21,6 @@ constexpr double kSmallStep = 1e-3;
 constexpr double kDamping = 1e-2, kEased = 0.3, kRaised = 6;
 constexpr double kMostDamping = 1e8;
 
-double squares(const std::vector<double>& answers, const std::vector<RowBand>& bands,
-               const std::vector<std::size_t>& rows) {
-  double sum = 0;
-  for (const std::size_t k : rows)
-    sum += square(bands.empty() ? answers[k] : bands[k].miss(answers[k]));
-  return sum;
-}
-
 // What the trials say: those far from the best one say less. A trial that one group of rows alone
 // puts far is near where that group is left out.
 RowQuadratics rows_of(const GuessedPosterior& of, const std::vector<PosteriorTrial>& trials,
@@ -39,13 +31,12 @@ RowQuadratics rows_of(const GuessedPosterior& of, const std::vector<PosteriorTri
   double least = kInfinity;
   for (const PosteriorTrial& trial : trials) {
     const Eigen::VectorXd x = of.at(trial.values);
-    std::vector<std::size_t> all(trial.answers.size());
-    for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
-    double most = 0;
-    for (const std::vector<std::size_t>& group : of.options.groups)
-      most = std::max(most, squares(trial.answers, of.options.bands, group));
-    const double sum = squares(trial.answers, of.options.bands, all) - most -
-                       2 * of.variance_factor * of.log_prior(x);
+    std::vector<double> misses = trial.answers;
+    take_bands_off(misses, of.options.bands);
+    double sum = kInfinity;
+    for (const RowTerms& of_some : of.options.common.terms(misses, {}, 1, of.options.groups))
+      sum = std::min(sum, of_some.squares);
+    sum -= 2 * of.variance_factor * of.log_prior(x);
     if (!std::isfinite(sum)) continue;
     points.emplace_back(units.root.transpose() * (x - units.middle));
     answers.push_back(trial.answers);
@@ -100,14 +91,11 @@ PosteriorGuess::PosteriorGuess(const GuessedPosterior& of,
 
 std::vector<double> PosteriorGuess::log_densities(const Eigen::VectorXd& x) const {
   const RowQuadratics::Rows here = rows(x);
-  std::vector<double> out(1 + of_.options.groups.size(), of_.log_prior(x));
-  for (std::size_t k = 0; k < group_of_.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    const double likely = log_likelihood(here.miss(row), here.variance(row), of_.variance_factor);
-    for (std::size_t g = 0; g < out.size(); ++g) {
-      if (g == 0 || group_of_[k] != g - 1) out[g] += likely;
-    }
-  }
+  const double prior = of_.log_prior(x);
+  std::vector<double> out;
+  for (const RowTerms& of_some : of_.options.common.terms(here.misses(), here.open(),
+                                                          of_.variance_factor, of_.options.groups))
+    out.push_back(prior + of_some.log_likelihood());
   return out;
 }
 
@@ -116,22 +104,30 @@ double PosteriorGuess::log_density(const Eigen::VectorXd& x, std::size_t without
   return without == kAllRows ? all.front() : all[1 + without];
 }
 
-// Damped steps of Gauss and Newton; what is open of a row makes it count for less.
+// What is open of a row makes it count for less.
+PosteriorGuess::Say PosteriorGuess::of_rows(const Eigen::VectorXd& x, std::size_t without) const {
+  const RowQuadratics::Rows near = rows(x);
+  const Eigen::MatrixXd slopes = rows_.slopes(unit(x)) * units_.root.transpose();
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(near.miss.size());
+  for (Eigen::Index k = 0; k < weights.size(); ++k) {
+    if (counts(static_cast<std::size_t>(k), without))
+      weights(k) = 1 / (of_.variance_factor + near.variance(k));
+  }
+  const Eigen::MatrixXd weighted = slopes.transpose() * weights.asDiagonal();
+  Say out{weighted * slopes, -(weighted * near.miss)};
+  of_.options.common.take_off(out.precision, out.pull, slopes, near.miss, weights,
+                              of_.variance_factor);
+  return out;
+}
+
+// Damped steps of Gauss and Newton.
 Bell PosteriorGuess::bell(const Eigen::VectorXd& start, std::size_t without) const {
   Eigen::VectorXd x = of_.within(start);
   double here = log_density(x, without), damping = kDamping;
   Eigen::MatrixXd precision;
   for (int step = 0; step < kMostSteps; ++step) {
-    const RowQuadratics::Rows near = rows(x);
-    const Eigen::MatrixXd slopes = rows_.slopes(unit(x)) * units_.root.transpose();
-    precision = Eigen::MatrixXd::Zero(x.size(), x.size());
-    Eigen::VectorXd pull = Eigen::VectorXd::Zero(x.size());
-    for (Eigen::Index k = 0; k < near.miss.size(); ++k) {
-      if (!counts(static_cast<std::size_t>(k), without)) continue;
-      const double weight = 1 / (of_.variance_factor + near.variance(k));
-      precision += weight * slopes.row(k).transpose() * slopes.row(k);
-      pull -= weight * near.miss(k) * slopes.row(k).transpose();
-    }
+    auto [of_data, pull] = of_rows(x, without);
+    precision = std::move(of_data);
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       const auto p = static_cast<std::size_t>(i);
       precision(i, i) += of_.prior_precision(p) / of_.variance_factor;
@@ -155,6 +151,40 @@ Bell PosteriorGuess::bell(const Eigen::VectorXd& start, std::size_t without) con
     }
   }
   return {std::move(x), precision};
+}
+
+Eigen::MatrixXd information_of(const std::vector<FitDirection>& directions) {
+  const auto n = static_cast<Eigen::Index>(directions.front().weights.size());
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n, n);
+  for (const FitDirection& d : directions) {
+    const Eigen::Map<const Eigen::VectorXd> v(d.weights.data(), n);
+    out += square(d.singular_value) * v * v.transpose();
+  }
+  return out;
+}
+
+std::vector<FitDirection> directions_by_trials(const std::vector<FitParameter>& parameters,
+                                               const std::vector<PosteriorTrial>& trials,
+                                               const PosteriorOptions& rows,
+                                               const std::vector<double>& values,
+                                               const LeastSquaresFit& by_differences) {
+  const FitCoordinates coordinates(parameters);
+  const GuessedPosterior of{coordinates, parameters, rows, by_differences.variance_factor};
+  Eigen::MatrixXd precision = information_of(by_differences.directions);
+  for (Eigen::Index i = 0; i < precision.rows(); ++i)
+    precision(i, i) += of.prior_precision(static_cast<std::size_t>(i));
+  const Eigen::VectorXd x = of.at(values);
+  const PosteriorGuess guess(of, trials, {x, precision.llt().matrixL()});
+  // In units of the data alone, as differences are.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(of.variance_factor *
+                                                              guess.information(x));
+  std::vector<FitDirection> out;
+  for (Eigen::Index k = precision.rows() - 1; k >= 0; --k) {
+    const auto direction = solver.eigenvectors().col(k);
+    out.push_back(
+        {std::sqrt(std::max(solver.eigenvalues()(k), 0.0)), {direction.begin(), direction.end()}});
+  }
+  return out;
 }
 
 }  // namespace papilla::optim

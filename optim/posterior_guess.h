@@ -37,17 +37,23 @@ struct GuessedPosterior {
 
 class PosteriorGuess {
  public:
+  static constexpr std::size_t kAllRows = static_cast<std::size_t>(-1);
+
   // trials: at least one that has an answer.
   PosteriorGuess(const GuessedPosterior& of, const std::vector<PosteriorTrial>& trials,
                  GuessUnits units);
 
   RowQuadratics::Rows rows(const Eigen::VectorXd& x) const { return rows_.rows(unit(x)); }
 
+  // What all rows tell of the parameters there: the precision, without the priors.
+  Eigen::MatrixXd information(const Eigen::VectorXd& x) const {
+    return of_rows(x, kAllRows).precision;
+  }
+
   // Logarithms of densities up to one constant: of all rows, then without each group.
   std::vector<double> log_densities(const Eigen::VectorXd& x) const;
 
   // Around the maximum from a start, without a group; `kAllRows`: of all rows.
-  static constexpr std::size_t kAllRows = static_cast<std::size_t>(-1);
   Bell bell(const Eigen::VectorXd& start, std::size_t without) const;
 
  private:
@@ -55,6 +61,12 @@ class PosteriorGuess {
     return units_.root.transpose() * (x - units_.middle);
   }
   double log_density(const Eigen::VectorXd& x, std::size_t without) const;
+  // Of the rows, without the priors.
+  struct Say {
+    Eigen::MatrixXd precision;
+    Eigen::VectorXd pull;
+  };
+  Say of_rows(const Eigen::VectorXd& x, std::size_t without) const;
   bool counts(std::size_t row, std::size_t without) const {
     return without == kAllRows || group_of_[row] != without;
   }
@@ -64,5 +76,17 @@ class PosteriorGuess {
   std::vector<std::size_t> group_of_;  // [row]; kAllRows: of none
   RowQuadratics rows_;
 };
+
+// Sum over directions of singular_value^2 times their squares: J'J of the fit.
+Eigen::MatrixXd information_of(const std::vector<FitDirection>& directions);
+
+// The directions at a fit's best values by the regression on all that the model has answered, what
+// that leaves open of a row taken for an error of it. rows: bands and common errors.
+// Eq. calibration.13
+std::vector<FitDirection> directions_by_trials(const std::vector<FitParameter>& parameters,
+                                               const std::vector<PosteriorTrial>& trials,
+                                               const PosteriorOptions& rows,
+                                               const std::vector<double>& values,
+                                               const LeastSquaresFit& by_differences);
 
 }  // namespace papilla::optim

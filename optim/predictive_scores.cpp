@@ -34,39 +34,41 @@ double effective_number(const std::vector<double>& weights) {
 
 namespace {
 
-LeftOut scores_of(const std::vector<PosteriorSample>& samples, double variance_factor,
-                  const std::vector<std::vector<std::size_t>>& groups,
+LeftOut scores_of(const Posterior& posterior, const std::vector<PosteriorSample>& samples,
                   const std::vector<double>& log_sd) {
+  const std::size_t groups = posterior.groups.size();
   LeftOut out;
-  out.errors.assign(groups.size(), 0);
+  out.errors.assign(groups, 0);
   out.least_effective = static_cast<double>(samples.size());
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    std::vector<double> with, without;
-    for (const PosteriorSample& s : samples) {
-      double likely = 0;
-      for (const std::size_t row : groups[g]) likely += s.log_likelihood(row, variance_factor);
-      with.push_back(s.log_ratio);
-      without.push_back(s.log_ratio - likely);
-    }
-    const double size = static_cast<double>(groups[g].size()) / 2;
-    out.scores.push_back(log_sum(with) - log_sum(without) - log_sd[g] -
-                         size * std::log(2 * kPi * variance_factor));
-    out.least_effective = std::min(out.least_effective, effective_number(normalised(without)));
+  std::vector<double> with;
+  std::vector<std::vector<double>> without(groups);
+  for (const PosteriorSample& s : samples) {
+    const std::vector<RowTerms> terms =
+        posterior.common.terms(s.misses, s.open, posterior.variance_factor, posterior.groups);
+    with.push_back(s.log_ratio);
+    for (std::size_t g = 0; g < groups; ++g)
+      without[g].push_back(s.log_ratio - terms.front().log_likelihood() +
+                           terms[1 + g].log_likelihood());
+  }
+  for (std::size_t g = 0; g < groups; ++g) {
+    const double size = static_cast<double>(posterior.groups[g].size()) / 2;
+    out.scores.push_back(log_sum(with) - log_sum(without[g]) - log_sd[g] -
+                         size * std::log(2 * kPi * posterior.variance_factor));
+    out.least_effective = std::min(out.least_effective, effective_number(normalised(without[g])));
   }
   return out;
 }
 
 }  // namespace
 
-LeftOut leave_out(const Posterior& posterior, const std::vector<std::vector<std::size_t>>& groups,
-                  const std::vector<double>& log_sd) {
-  LeftOut out = scores_of(posterior.samples, posterior.variance_factor, groups, log_sd);
+LeftOut leave_out(const Posterior& posterior, const std::vector<double>& log_sd) {
+  LeftOut out = scores_of(posterior, posterior.samples, log_sd);
   if (posterior.halves.empty()) return out;
   // A half has twice the variance of all and all have half of its answers in common with it: their
   // difference has the variance of all.
   for (const std::vector<PosteriorSample>& half : posterior.halves) {
-    const LeftOut by_half = scores_of(half, posterior.variance_factor, groups, log_sd);
-    for (std::size_t g = 0; g < groups.size(); ++g)
+    const LeftOut by_half = scores_of(posterior, half, log_sd);
+    for (std::size_t g = 0; g < out.scores.size(); ++g)
       out.errors[g] += square(by_half.scores[g] - out.scores[g]);
   }
   for (double& error : out.errors)

@@ -38,6 +38,10 @@ class RowQuadratics {
   // The rows at a point: answers, from the bands, and what is open of them as variances.
   struct Rows {
     Eigen::VectorXd answer, miss, variance;
+
+    std::size_t size() const { return static_cast<std::size_t>(answer.size()); }
+    std::span<const double> misses() const { return {miss.data(), size()}; }
+    std::span<const double> open() const { return {variance.data(), size()}; }
   };
   Rows rows(const Eigen::VectorXd& point) const;
   // Slopes of the misses there, rows by coordinates.

@@ -13,11 +13,18 @@
 namespace papilla::geometry {
 namespace {
 
-// Radius of the disc that a particle covers: the whole sphere, or its cap when it sits deep.
-double disc_radius(const Particle& p, double embedding) {
-  const double above = 2 * p.radius * (1 - embedding);  // height of the cap
-  return above >= p.radius ? p.radius : std::sqrt(above * (2 * p.radius - above));
+// Area that a particle is seen to cover over that of its widest circle: 1 for the whole sphere,
+// less for the cap of one that sits deep.
+double seen_share(double embedding) {
+  return embedding <= 0.5 ? 1 : 4 * embedding * (1 - embedding);
 }
+// Radius of what is seen of it.
+double disc_radius(const Particle& p, double embedding) {
+  return p.radius * std::sqrt(seen_share(embedding));
+}
+
+// Random sequential placement of discs jams at 0.547 (Feder 1980).
+constexpr double kDensest = 0.52;
 
 // Particles that a patch holds at least, so that a thin film is not one of no or of one particle,
 // and the patch that is simulated at most, in radii: twenty pixels a radius at 1024 a side.
@@ -105,7 +112,9 @@ void fields(FieldVisitor& v, ParticleFilm& t) {
   v.number({"radius_spread", "%", 0, 50, "standard deviation of the radius over its mean",
             Source::Estimate, "none published"},
            t.radius_spread);
-  v.number({"coverage", "%", 0, 80, "projected share covered by particles, to half of one of them",
+  v.number({"coverage", "%", 0, 100 * kDensest,
+            "projected share covered by what shows of the particles, to half of one of them; "
+            "particles embedded by more than half touch below the film, and less can be placed",
             Source::Estimate, "none published"},
            t.coverage);
   v.number({"embedding", "%", 0, 95, "share of the diameter below the film", Source::Estimate,
@@ -130,11 +139,11 @@ std::vector<Particle> place_particles(const ParticleFilm& film, const Grid& grid
   }
   std::stable_sort(particles.begin(), particles.end(),
                    [](const Particle& a, const Particle& b) { return a.radius > b.radius; });
-  // The first is the largest.
-  PlacedDiscs discs(grid, particles.empty() ? 1 : 2 * disc_radius(particles[0], film.embedding));
+  // Spheres keep apart by their widest circles, above the film or below it. The first is the
+  // largest.
+  PlacedDiscs discs(grid, particles.empty() ? 1 : 2 * particles[0].radius);
   for (std::size_t i = 0; i < particles.size(); ++i) {
     Particle& p = particles[i];
-    const double own = disc_radius(p, film.embedding);
     bool placed = false;
     constexpr int kTries = 100000;
     for (int attempt = 0; attempt < kTries && !placed; ++attempt) {
@@ -142,7 +151,7 @@ std::vector<Particle> place_particles(const ParticleFilm& film, const Grid& grid
         const Particle& other =
             particles[static_cast<std::size_t>(random.below(static_cast<int>(i)))];
         const double angle = random.uniform(0, 2 * kPi);
-        const double reach = (own + disc_radius(other, film.embedding)) * (1 + 1e-9);
+        const double reach = (p.radius + other.radius) * (1 + 1e-9);
         p.x = other.x + reach * std::cos(angle);
         p.y = other.y + reach * std::sin(angle);
         p.x -= grid.lx * std::floor(p.x / grid.lx);
@@ -151,9 +160,9 @@ std::vector<Particle> place_particles(const ParticleFilm& film, const Grid& grid
         p.x = random.uniform(0, grid.lx);
         p.y = random.uniform(0, grid.ly);
       }
-      placed = 2 * own < std::min(grid.lx, grid.ly) && !discs.touches(p.x, p.y, own);
+      placed = 2 * p.radius < std::min(grid.lx, grid.ly) && !discs.touches(p.x, p.y, p.radius);
     }
-    if (placed) discs.add(p.x, p.y, own);
+    if (placed) discs.add(p.x, p.y, p.radius);
     if (!placed) {
       throw InputError(
           fmt::format("a coverage of {:.0f} % with particles of {:.3g} um radius cannot be reached "
@@ -187,9 +196,17 @@ Heightmap heights(const ParticleFilm& film, const Grid& grid) {
 }
 
 TextureProblems problems(const ParticleFilm& t) {
-  // Random sequential placement of discs jams at 0.547 (Feder 1980).
-  if (t.coverage > 0.52)
-    return {{"coverage", "random non-overlapping particles jam near 55 %; use at most 52 %"}};
+  // Of the widest circles, which lie below the film where the particles sit deep.
+  if (const double most = kDensest * seen_share(t.embedding); t.coverage > most) {
+    const std::string below =
+        t.embedding <= 0.5 ? ""
+                           : fmt::format(" where {:.3g} % of their diameter lies below the film",
+                                         100 * t.embedding);
+    return {
+        {"coverage",
+         fmt::format("random non-overlapping particles jam near {:.3g} %{}; use at most {:.3g} %",
+                     55 * seen_share(t.embedding), below, 100 * most)}};
+  }
   constexpr double kRoundedUp = 1.05;  // two digits of it are enough
   const double longest = std::max(kLongest * t.radius, kWindow);
   if (!(t.coverage > 0) || side_of_fewest(t) <= longest) return {};

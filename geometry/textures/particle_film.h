@@ -1,4 +1,4 @@
-// Random non-overlapping spherical caps on a flat film.
+// Random non-overlapping spheres that sit in a flat film.
 #pragma once
 
 #include "base/rooms.h"
@@ -25,7 +25,8 @@ struct Particle {
 };
 
 // Placed largest first by random sequential placement (Feder 1980), periodic; deterministic by
-// seed. Throws InputError when the coverage cannot be reached. Projected discs do not overlap.
+// seed. Throws InputError when the coverage cannot be reached. The spheres do not overlap, above
+// the film or below it.
 std::vector<Particle> place_particles(const ParticleFilm& film, const Grid& grid);
 
 void fields(FieldVisitor& v, ParticleFilm& t);

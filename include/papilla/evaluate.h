@@ -61,17 +61,18 @@ class Response {
 
 struct EvaluateOptions {
   std::string level;  // "draft", "design", "reference"; empty: the design's own
-  double target = 0;  // relative standard error of the modulation, in place of a level; 0: none
+  double target = 0;  // relative standard error of the modulation; 0: none. Not beside a level
   int threads = 0;    // 0: all processors. The result is the same for any number
   // What is not known of finger and model, where the finger names a belief; else
   bool model = true;
   bool parameters = false;          // also the error that the finger's fitted numbers leave
   bool look = false;                // also haze, transmittance, gloss and colour
-  std::vector<double> voltage_for;  // also the amplitudes that reach these modulations
+  std::vector<double> voltage_for;  // also the amplitudes that reach these modulations, above 0
   bool force = false;               // with model options that the finger was not fitted with
 
   // Called after each skin patch with the number of those that are done; from any thread, one call
-  // at a time. May be empty.
+  // at a time. May be empty. What it throws ends the work after the running patches and comes out
+  // of evaluate().
   std::function<void(int done)> progress;
   // Set by another thread: evaluate() ends after the running patches and throws Stopped.
   const std::atomic<bool>* stop = nullptr;

@@ -15,11 +15,11 @@ struct RankOptions {
   std::string by;  // "friction:low,variation(modulation):low"; empty: as `papilla rank`
   std::vector<double> weights;     // of the criteria; empty: several have no single score
   std::string states;              // "clean,natural,wet"; empty: the fingers' own
-  int max_skins = 96;              // per candidate and state
+  int max_skins = 96;              // per candidate and state; 6 at least
   int threads = 0;                 // 0: all processors
   bool parameters = false;         // insist on what the finger's fitted numbers leave open
   bool any_conditions = false;     // compare designs under other conditions all the same
-  std::vector<std::string> names;  // of the candidates; empty: their titles
+  std::vector<std::string> names;  // of the candidates; empty: titles, numbered where alike
   std::function<void(const std::string&)> progress;  // for people; may be empty
   const std::atomic<bool>* stop = nullptr;           // set by another thread: rank() throws Stopped
 };

@@ -110,9 +110,10 @@ class Search {
   ~Search();
 
   // Values of the variables of the next designs; empty: nothing more to try, or as many were told
-  // as search.evaluations says.
+  // as search.evaluations says. Throws InputError before the last ones were told.
   std::vector<std::vector<double>> ask();
-  // One judgement per design of the last ask, in its order. Throws InputError for another number.
+  // One judgement per design of the last ask, in its order; of those that are ok every value and
+  // violation is a finite number. Throws InputError for others.
   void tell(const std::vector<Judgement>& judgements);
 
  private:

@@ -7,7 +7,6 @@ import html
 import json
 import os
 import re
-import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -84,6 +83,10 @@ class Heights:
 
     def __init__(self, z: FloatArray, dx: float, dy: float) -> None:
         self.z, self.dx, self.dy = z, dx, dy
+
+    def __array__(self, dtype: npt.DTypeLike = None, copy: bool | None = None) -> npt.NDArray[Any]:
+        """Its ``z``: Heights go where an array of heights does."""
+        return np.asarray(self.z, dtype=dtype) if copy is None else np.array(self.z, dtype=dtype, copy=copy)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Heights, (np.array(self.z), self.dx, self.dy)
@@ -197,13 +200,13 @@ class Design:
         return {number.path: number.value for number in self.numbers}
 
     def save(self, file: Path) -> None:
-        """Writes the design as a file; one of that name is replaced.
+        """Writes the design as a file; one of that name is replaced. Raises InputError for a name that is none of a file.
 
         Heights from an array lie beside it, float64 in metres: those of surface.toml in surface.heights.npy. A file of
         that name that holds others stays as it is, and they lie in surface.heights-2.npy, and so on; the design names
         the file that it has.
         """
-        name = v.path(file, "file")
+        name = v.named_file(file, "file")
         text = self.to_toml()
         drawn = self._inside.drawn()
         if drawn is not None:
@@ -213,7 +216,7 @@ class Design:
         partial = name + ".part"
         with open(partial, "w", encoding="utf-8") as stream:
             stream.write(text)
-        shutil.move(partial, name)
+        os.replace(partial, name)
 
     def heights(self, pixels: int = 512) -> Heights:
         """A patch of whole periods, ``pixels`` along x (8 to 16384).

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-from papilla.values import FloatArray, fixed
+from papilla.values import FloatArray, fixed, masked
 
 __all__ = ["Quantity"]
 
@@ -35,9 +35,14 @@ _SLOPES: dict[np.ufunc, tuple[_Slope, ...]] = {
     np.log10: (lambda a: 1 / (a * np.log(10)),),
 }
 # Functions whose answer has no error to lose.
-_OF_VALUES = {np.shape, np.ndim, np.size, np.isclose, np.allclose, np.array_equal}
-_COMPARISONS = {np.less, np.less_equal, np.greater, np.greater_equal, np.equal, np.not_equal, np.isfinite, np.isnan}
-_SUMS = {np.add, np.subtract, np.negative, np.positive, np.absolute}
+_CLOSENESS = {np.isclose, np.allclose}
+_OF_VALUES = {np.shape, np.ndim, np.size, np.array_equal} | _CLOSENESS
+_ORDERS = {np.less, np.less_equal, np.greater, np.greater_equal}
+# And what they say of two units.
+_EQUALITIES = {np.equal: False, np.not_equal: True}
+_QUESTIONS = {np.isfinite, np.isnan}
+_ADDITIONS = {np.add, np.subtract}
+_SUMS = _ADDITIONS | {np.negative, np.positive, np.absolute}
 _PARTS = ("sampling", "grid", "solver", "humidity", "method", "field", "parameters", "model", "water")
 _SHOWN = 6
 
@@ -53,7 +58,11 @@ class Quantity(NDArrayOperatorsMixin):
 
     Errors of different quantities are propagated to first order as if they were independent, part by part. Quantities of
     one evaluation, or of designs on the same skins, are not: for their differences ``papilla.compare`` is surer. Two
-    names of the very same object are the same number: ``q - q`` has no error. Other functions of numpy (``np.mean``,
+    names of the very same object are the same number: ``q - q`` has no error. The items of one quantity share their
+    skins, method, field and finger too: the error of ``sum(q) / len(q)`` is far too small, and the mean of an evaluation
+    with its own error is ``r.to_dict()["summary"]["mean_modulation"]``. Quantities of two units have no sum and no
+    order, and are not equal.
+    Other functions of numpy (``np.mean``,
     ``np.sin``, ``np.concatenate``) would lose the errors and raise TypeError: take ``q.value``. The arrays are read-only:
     ``q.value.copy()`` is your own.
     """
@@ -102,15 +111,19 @@ class Quantity(NDArrayOperatorsMixin):
         return np.array(self.value, dtype=dtype)
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
-        if method != "__call__" or options:
-            return NotImplemented
+        if method != "__call__" or options or ufunc not in {*_SLOPES, *_ORDERS, *_EQUALITIES, *_QUESTIONS}:
+            raise _losing(ufunc, method, options)
+        _require_unmasked(inputs)
         plain = [np.asarray(_value_of(x)) for x in inputs]
-        if ufunc in _COMPARISONS:
-            return ufunc(*plain)
-        if any(x.dtype.kind not in "fiub" for x in plain):
-            return NotImplemented
+        if ufunc in _ORDERS | _ADDITIONS:
+            _require_one_unit(ufunc, inputs)
+        if ufunc in _EQUALITIES and len(_units(inputs)) > 1:
+            return np.full(np.broadcast_shapes(*(x.shape for x in plain)), _EQUALITIES[ufunc])[()]
         if ufunc not in _SLOPES:
-            raise _losing(ufunc)
+            return ufunc(*plain)
+        for x, given in zip(plain, inputs):
+            if x.dtype.kind not in "fiub":
+                raise TypeError(f"a Quantity goes with real numbers and arrays of them, got {_said(given)}")
         plain = [x.astype(np.float64) for x in plain]
         value = np.asarray(ufunc(*plain))
         terms = _terms(inputs, [(x, slope(*plain)) for x, slope in zip(inputs, _SLOPES[ufunc]) if isinstance(x, Quantity)])
@@ -127,7 +140,20 @@ class Quantity(NDArrayOperatorsMixin):
                            options: dict[str, Any]) -> Any:
         if function not in _OF_VALUES:
             raise _losing(function)
+        given = (*inputs, *options.values())
+        _require_unmasked(given)
+        if function in _CLOSENESS:
+            _require_one_unit(function, given)
+        if function is np.array_equal and len(_units(given)) > 1:
+            return False
         return function(*map(_value_of, inputs), **{name: _value_of(x) for name, x in options.items()})
+
+    # x += 1 binds x to a new quantity, as of every number.
+    __iadd__ = NDArrayOperatorsMixin.__add__
+    __isub__ = NDArrayOperatorsMixin.__sub__
+    __imul__ = NDArrayOperatorsMixin.__mul__
+    __itruediv__ = NDArrayOperatorsMixin.__truediv__
+    __ipow__ = NDArrayOperatorsMixin.__pow__
 
     def __getitem__(self, chosen: Any) -> Quantity:
         return Quantity(self.value[chosen], self.error[chosen], {n: p[chosen] for n, p in self.parts.items()},
@@ -164,8 +190,35 @@ class Quantity(NDArrayOperatorsMixin):
     __hash__ = None  # type: ignore[assignment]
 
 
-def _losing(function: Any) -> TypeError:
-    return TypeError(f"numpy.{function.__name__} would lose the errors of a Quantity: take its .value")
+def _losing(function: Any, method: str = "__call__", options: Mapping[str, Any] = MappingProxyType({})) -> TypeError:
+    name = f"numpy.{function.__name__}" + ("" if method == "__call__" else "." + method)
+    if method == "__call__" and options:
+        name += f" with {', '.join(options)}"
+    return TypeError(f"{name} would lose the errors of a Quantity: take its .value")
+
+
+def _require_unmasked(inputs: tuple[Any, ...]) -> None:
+    """A quantity has no mask, and what is below one is no number."""
+    for x in inputs:
+        if (hidden := masked(x)):
+            raise TypeError(f"{hidden} of {np.size(x)} values are masked, and a Quantity has no mask: fill them, "
+                            "x.filled(...), or choose the others, q[~x.mask]")
+
+
+def _units(inputs: tuple[Any, ...]) -> list[str]:
+    """Those that are known, each once. A plain number has the unit of the quantity beside it."""
+    return list(dict.fromkeys(x.unit for x in inputs if isinstance(x, Quantity) and x.unit))
+
+
+def _require_one_unit(function: Callable[..., Any], inputs: tuple[Any, ...]) -> None:
+    """Of sums, orders and what is close."""
+    units = _units(inputs)
+    if len(units) > 1:
+        raise TypeError(f"numpy.{function.__name__} of quantities in {units[0]} and in {units[1]}: they have no common unit")
+
+
+def _said(given: Any) -> str:
+    return f"an array of dtype {given.dtype}" if isinstance(given, np.ndarray) else type(given).__name__
 
 
 def _value_of(x: Any) -> Any:
@@ -180,7 +233,7 @@ def _terms(inputs: tuple[Any, ...], slopes: list[tuple[Quantity, Any]]) -> list[
 
 
 def _unit(ufunc: np.ufunc, inputs: tuple[Any, ...]) -> str:
-    """That of sums of one unit and of multiples; of other results it is not kept."""
+    """That of sums of one unit and of multiples; of other results, and of sums with one of no known unit, it is not kept."""
     units = [x.unit for x in inputs if isinstance(x, Quantity)]
     multiple = len(units) == 1 and (ufunc is np.multiply or (ufunc is np.true_divide and isinstance(inputs[0], Quantity)))
     return units[0] if multiple or (ufunc in _SUMS and len(set(units)) == 1) else ""

@@ -124,7 +124,9 @@ class FoundDesign:
     folder: str
     """Of design.toml; empty: only its values are kept."""
     on_front: bool
-    """Whether it keeps every limit and no other beats it."""
+    """Whether it keeps every limit and no other is sure to beat it: it is out only where another is better in every
+    objective (and in the worst modulation, where designs are judged at the study's own amplitude) by the confirmed numbers
+    and, where the fingers name a belief, at every member of it. So a study of one objective may have a front of several."""
 
     def load(self) -> Design:
         """The design as its folder has it, or of its values where it has none."""
@@ -240,7 +242,8 @@ class Run:
 
     @property
     def front(self) -> list[FoundDesign]:
-        """The finalists that keep every limit and that no other beats."""
+        """The finalists that keep every limit and that no other is sure to beat (``FoundDesign.on_front``); how probable
+        each is the best is in ``decision``."""
         return [found for found in self.finalists if found.on_front]
 
     @property
@@ -489,6 +492,7 @@ class Study:
             raise wrong("points", "expected the designs of the last ask(), in their order")
 
     def _per_objective(self, told: Told, key: str) -> list[float]:
+        v.unmasked(told, key)
         numbers = np.atleast_1d(np.asarray(told, dtype=object))
         if numbers.shape != (len(self.objectives),):
             raise wrong(key, f"expected one number for each of {len(self.objectives)} objectives, got {told!r}")

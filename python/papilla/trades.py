@@ -71,7 +71,8 @@ def rank(designs: Sequence[Design], by: str = "", *, weights: Sequence[float] = 
 
     by: criteria, "friction:low,variation(modulation):low"; empty: modulation, of undriven designs friction and
     adhesion. weights: of the criteria, for one score. states: "clean,natural,wet"; empty: the one that all
-    fingers are in. names: of the designs in messages. max_skins: per design and state. progress: called with a text.
+    fingers are in. names: of the designs in messages; empty: their
+    titles, numbered where two are alike. max_skins: per design and state, 6 at least. progress: called with a text.
 
     Raises InputError, KeyboardInterrupt. Source: docs/theory/ranking.md.
     """
@@ -84,12 +85,11 @@ def rank(designs: Sequence[Design], by: str = "", *, weights: Sequence[float] = 
         raise wrong("designs", "name two at least")
     if names and len(names) != len(designs):
         raise wrong("names", f"expected one for each of {len(designs)} designs, got {len(names)}")
-    shown_names = list(names) or [d.title or f"design {i}" for i, d in enumerate(designs)]
     return Ranking(_native.rank(
         [d._inside for d in designs], v.text(by, "by"), [v.positive(w, "", "weights") for w in v.items(weights, "weights")],
-        v.text(states, "states"), v.whole(max_skins, "max_skins", 2, 100000), v.whole(threads, "threads", 0, 4096),
+        v.text(states, "states"), v.whole(max_skins, "max_skins", 6, 100000), v.whole(threads, "threads", 0, 4096),
         v.flag(parameters, "parameters"), v.flag(any_conditions, "any_conditions"),
-        [v.text(n, "names") for n in shown_names], shown(progress, "rank")))
+        [v.text(n, "names") for n in names], shown(progress, "rank")))
 
 
 @dataclass(frozen=True)

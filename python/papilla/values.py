@@ -56,8 +56,21 @@ def _brief(value: Any) -> str:
     return repr(value)
 
 
-def fixed(numbers: npt.ArrayLike) -> FloatArray:
+def masked(value: object) -> int:
+    """How many values of a masked array are masked: what numpy has below its mask (0, 1e20) is no number."""
+    return int(np.count_nonzero(np.asarray(value.mask))) if isinstance(value, np.ma.MaskedArray) else 0
+
+
+def unmasked(value: Any, key: str) -> None:
+    """Raises InputError where values are masked."""
+    if (hidden := masked(value)):
+        raise wrong(key, f"{hidden} of {np.size(value)} values are masked and have no number: fill them, x.filled(...), "
+                         "or leave them out")
+
+
+def fixed(numbers: npt.ArrayLike, key: str = "values") -> FloatArray:
     """A copy that nobody can write to."""
+    unmasked(numbers, key)
     out = np.array(numbers, dtype=np.float64)
     out.flags.writeable = False
     return out
@@ -83,13 +96,14 @@ def si(value: Quantified, unit: str, key: str) -> float:
     return number
 
 
-def _plain(value: object) -> object:
-    """Of an array without axes its one number."""
+def _plain(value: object, key: str) -> object:
+    """Of an array without axes its one number. Raises InputError where values are masked."""
+    unmasked(value, key)
     return value.item() if isinstance(value, np.ndarray) and value.ndim == 0 else value
 
 
 def _number(value: object, key: str) -> float:
-    value = _plain(value)
+    value = _plain(value, key)
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise wrong(key, f"expected a number or a text with a unit, got {type(value).__name__}")
     try:
@@ -100,7 +114,7 @@ def _number(value: object, key: str) -> float:
 
 def whole(value: object, key: str, low: int, high: int) -> int:
     """A whole number within its range."""
-    value = _plain(value)
+    value = _plain(value, key)
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
         raise wrong(key, f"expected a whole number, got {type(value).__name__}")
     if not low <= int(value) <= high:
@@ -116,7 +130,7 @@ def positive(value: Quantified, unit: str, key: str) -> float:
 
 
 def flag(value: object, key: str) -> bool:
-    value = _plain(value)
+    value = _plain(value, key)
     if not isinstance(value, (bool, np.bool_)):
         raise wrong(key, f"expected True or False, got {type(value).__name__}")
     return bool(value)
@@ -130,7 +144,7 @@ def text(value: object, key: str) -> str:
 
 def items(values: Any, key: str) -> list[Any]:
     """The items of a sequence; a single text or number is one item, not its letters."""
-    values = _plain(values)
+    values = _plain(values, key)
     if isinstance(values, (str, int, float, np.generic)):
         return [values]
     if isinstance(values, Mapping) or not isinstance(values, Iterable):
@@ -144,6 +158,18 @@ def path(value: Path, key: str) -> str:
     return os.fspath(value)
 
 
+def named_file(value: Path, key: str) -> str:
+    """The name of a file to write: none of a folder, in a folder that is there."""
+    name = path(value, key)
+    folder, base = os.path.split(name)
+    if os.path.isdir(name) or not base:
+        raise wrong(key, f"{name!r} is a folder: expected the name of a file" if base or name else
+                    "expected the name of a file, got an empty text")
+    if folder and not os.path.isdir(folder):
+        raise wrong(key, f"the folder {folder} is not there: make it first")
+    return name
+
+
 def paths(values: Path | Sequence[Path], key: str) -> list[str]:
     """One name of a file, or several."""
     several = [values] if isinstance(values, (str, os.PathLike)) else items(values, key)
@@ -152,9 +178,7 @@ def paths(values: Path | Sequence[Path], key: str) -> list[str]:
 
 def height_map(z: npt.ArrayLike, key: str) -> FloatArray:
     """A map of numbers, shape (ny, nx): real, finite, none masked, 2 x 2 pixels at least."""
-    if isinstance(z, np.ma.MaskedArray) and (masked := np.count_nonzero(np.asarray(z.mask))):
-        raise wrong(key, f"{masked} of {z.size} values are masked, and a map has a height "
-                         "everywhere: fill them, z.filled(...), or cut the map")
+    unmasked(z, key)
     array = np.asarray(z)
     if array.dtype.kind not in "fiu":
         raise wrong(key, f"expected an array of real numbers, got dtype {array.dtype}")
@@ -172,7 +196,7 @@ def pixel_size(shape: tuple[int, ...], size: Quantified | Sequence[Quantified],
                key: str = "size") -> tuple[float, float]:
     """dx, dy [m] of a map (ny, nx) as large as ``size``: its width, or width and height."""
     ny, nx = shape
-    size = _plain(size)  # type: ignore[assignment]
+    size = _plain(size, key)  # type: ignore[assignment]
     if isinstance(size, (list, tuple, np.ndarray)):
         if len(size) != 2:
             raise wrong(key, f"expected a width, or a width and a height, got {len(size)} values")
@@ -211,6 +235,7 @@ def _flat(prefix: str, values: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 
 
 def _toml(value: Any, key: str) -> str:
+    unmasked(value, key)
     if isinstance(value, (np.generic, np.ndarray)):
         value = value.tolist()
     if isinstance(value, bool):

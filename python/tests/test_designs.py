@@ -106,6 +106,46 @@ def test_heights_in_another_unit_and_masked_ones_are_refused() -> None:
     assert pp.Design.from_heights(np.ma.masked_less(z, z.min()), "6 um")  # none is masked
 
 
+def test_masked_numbers_are_refused() -> None:
+    none, two = np.ma.masked, np.ma.masked_array([0.1, 0.2], [0, 1])
+    for call, key in ((lambda: pp.contact(drawn(16), "6 um", pressure=none, modulus=1e6), "pressure"),
+                      (lambda: pp.field(drawn(16) + 1e-6, "6 um", voltage=none), "voltage"),
+                      (lambda: pp.haze(drawn(16), "6 um", angles=two), "angles"),
+                      (lambda: pp.haze(drawn(16), two), "size"),
+                      (lambda: pp.Design({"base": "m3_samples/flat.toml", "drive.amplitude": none}), "drive.amplitude"),
+                      (lambda: pp.Design({"base": "m3_samples/flat.toml", "environment.relative_humidity": two}),
+                       "environment.relative_humidity")):
+        with pytest.raises(pp.InputError, match=f"{key}: 1 of . values are masked and have no number"):
+            call()
+
+
+def test_heights_go_where_an_array_does() -> None:
+    heights = pp.Design.load("m3_samples/a3h350.toml").heights(32)
+    assert np.shares_memory(np.asarray(heights), heights.z) and np.asarray(heights, dtype=np.float32).dtype == np.float32
+    assert not np.shares_memory(np.array(heights, copy=True), heights.z)
+    if int(np.__version__.split(".")[0]) >= 2:  # numpy 1 copies where it has to
+        assert np.shares_memory(np.array(heights, copy=False), heights.z)
+        with pytest.raises(ValueError, match="copy"):
+            np.array(heights, dtype=np.float32, copy=False)
+    made = pp.Design.from_heights(heights, heights.size, {"base": "m3_samples/flat.toml"})
+    assert np.array_equal(made.heights(32).z, heights.z - heights.z.max())
+    gap = np.full(heights.z.shape, 1e-6) - heights.z
+    on_walls = pp.field(gap, heights.size, voltage=100, surface=heights, method="local")
+    assert on_walls == pp.field(gap, heights.size, voltage=100, surface=heights.z, method="local")
+
+
+def test_a_design_is_saved_under_the_name_of_a_file_alone(tmp_path: pathlib.Path) -> None:
+    design, folder = pp.Design.load("m3_samples/flat.toml"), tmp_path / "dd"
+    folder.mkdir()
+    for name, said in ((folder, "is a folder: expected the name of a file"), (f"{tmp_path}/new/", "is a folder"),
+                       (tmp_path / "no/such.toml", "the folder .*no is not there: make it first"), ("", "got an empty text")):
+        with pytest.raises(pp.InputError, match=f"file: .*{said}"):
+            design.save(name)
+    with pytest.raises(pp.InputError, match="expected the name of a file"):
+        pp.Design.load("")
+    assert list(tmp_path.rglob("*")) == [folder]
+
+
 def test_float32_and_transposed_arrays_count_by_their_values() -> None:
     z = np.asfortranarray(drawn().astype(np.float32))
     assert np.array_equal(pp.Design.from_heights(z, 6e-6).heights(96).z, z.astype(float) - z.max())

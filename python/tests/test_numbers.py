@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import operator
 import pickle
 from collections.abc import Callable
 
@@ -52,6 +53,49 @@ def test_a_part_that_was_not_measured_stays_unknown() -> None:
 def test_units_are_kept_by_sums_and_multiples_alone() -> None:
     assert (A + B).unit == (A - 1).unit == (2 * A).unit == (A / 2).unit == (-A).unit == "N"
     assert (A * B).unit == (A / B).unit == (1 / A).unit == np.sqrt(A).unit == ""
+
+
+def test_quantities_of_two_units_have_no_sum_and_no_order() -> None:
+    gap = pp.Quantity(np.array([1e-6, 2e-6, 3e-6]), np.array([1e-8] * 3), unit="m")
+    for call in (lambda: A + gap, lambda: A - gap, lambda: A < gap, lambda: np.isclose(A, gap), lambda: np.allclose(A, b=gap)):
+        with pytest.raises(TypeError, match="quantities in N and in m: they have no common unit"):
+            call()
+    assert (A * gap).unit == "" and (A / gap + gap).unit == ""  # of a product it is not known
+    assert (A > 1).tolist() == [True, True, False] and (A + 1).unit == "N"
+
+
+def test_quantities_of_two_units_are_not_equal() -> None:
+    same = pp.Quantity(A.value, A.error, unit="m")
+    assert (A == same).tolist() == [False] * 3 and (A != same).tolist() == [True] * 3 and (A == same[0]).shape == (3,)
+    assert A[0] not in [same[0]] and A[0] in [A[0] + 0] and not np.array_equal(A, same)
+
+
+def test_a_quantity_in_place_is_a_new_one() -> None:
+    for change in (lambda x: operator.iadd(x, 1), lambda x: operator.isub(x, B), lambda x: operator.imul(x, 2),
+                   lambda x: operator.itruediv(x, B), lambda x: operator.ipow(x, 2)):
+        assert isinstance(change(A), pp.Quantity)
+    x = A
+    x += 1
+    assert x.value.tolist() == [3.0, 4.0, 1.5] and x.error.tolist() == A.error.tolist() and A.value[0] == 2
+
+
+def test_what_is_no_number_beside_a_quantity_is_said() -> None:
+    for other, said in (("1", "real numbers and arrays of them, got str"), (None, "got NoneType"),
+                        (np.array(["1"] * 3), "got an array of dtype <U1"), (1j, "got complex")):
+        with pytest.raises(TypeError, match=said):
+            A + other
+    with pytest.raises(TypeError, match=r"numpy\.add\.reduce would lose the errors"):
+        np.add.reduce(A)
+
+
+def test_masked_values_are_no_numbers() -> None:
+    hidden = np.ma.masked_array(np.ones(3), [0, 0, 1])
+    for call in (lambda: A + hidden, lambda: A > hidden):
+        with pytest.raises(TypeError, match="1 of 3 values are masked"):
+            call()
+    assert (A + np.ma.masked_array(np.ones(3), False)).value[0] == 3  # none is masked
+    with pytest.raises(pp.InputError, match="1 of 3 values are masked"):
+        pp.Quantity(hidden, np.zeros(3))
 
 
 def test_a_quantity_is_an_array() -> None:

@@ -114,6 +114,17 @@ def test_what_is_told_is_checked() -> None:
     study.tell(points, np.ones(len(points)), np.full(len(points), 0.1))
 
 
+def test_masked_values_are_not_told() -> None:
+    study = pp.Study(STUDY)
+    points = study.ask(1)
+    told = np.ma.masked_array([0.5], True)
+    with pytest.raises(pp.InputError, match="values: .* are masked"):
+        study.tell(points, [told])
+    own = study.own.values_si
+    with pytest.raises(pp.InputError, match="1 of 2 values are masked"):
+        study.point(np.ma.masked_array(own, np.arange(len(own)) == 0))
+
+
 def test_judge_is_the_model() -> None:
     study = pp.Study({**STUDY, "constraints": {"min_wall": "2.9 um"}})
     good = study.judge({"texture.depth": "300 nm", "surface.contact_angle": "50 deg"})

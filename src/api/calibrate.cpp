@@ -10,6 +10,7 @@ namespace papilla::api {
 
 CalibrateResult calibrate(const std::string& file, const CalibrateOptions& options) {
   return across([&] {
+    require_threads(options.threads);
     Watch watch({}, options.stop);
     const FitReport fit = fit_to_folder(file, {options.threads, options.folder, options.progress});
     CalibrateResult out;

@@ -132,7 +132,10 @@ Heightmap heightmap_of(const Heights& h) {
 }
 
 Design Design::read(const std::string& file, const Values& values) {
-  return Design(loaded({own_or_shipped(file), "", values, nullptr, {}}));
+  return across([&] {
+    if (file.empty()) throw wrong("file", "expected the name of a file, got an empty text");
+    return Design(loaded({own_or_shipped(file), "", values, nullptr, {}}));
+  });
 }
 
 Design Design::parse(const std::string& toml, const Values& values) {

@@ -1,11 +1,17 @@
 #include "papilla/evaluate.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "api/inside.h"
 #include "estimate/evaluation.h"
 #include "report/response.h"
 
 namespace papilla::api {
 namespace {
+
+constexpr int kMostThreads = 4096;
 
 Quantity quantity_of(const Measured& m) {
   return {m.value,
@@ -56,11 +62,27 @@ std::string Response::svg(const std::string& title) const {
 
 std::string Response::table() const { return response_table(inside_->response); }
 
+void require_threads(int threads) {
+  if (threads < 0 || threads > kMostThreads) {
+    throw wrong("threads",
+                fmt::format("expected 0, all processors, to {}, got {}", kMostThreads, threads));
+  }
+}
+
 rooms::Design at_options(const Design& design, const EvaluateOptions& options) {
   const rooms::Design& own = design.inside().design();
+  require_threads(options.threads);
   if (!options.force) require_fitted_model(own, design.inside().file, "set `force`");
   if (!(options.target >= 0 && options.target < 1))
     throw wrong("target", "expected a share from 0 to 1");
+  if (!options.level.empty() && options.target > 0)
+    throw wrong("target", "give a level or a target, not both: a target finds its own level");
+  for (const double modulation : options.voltage_for) {
+    if (!(modulation > 0 && std::isfinite(modulation))) {
+      throw wrong("voltage_for",
+                  fmt::format("expected modulations above 0, 0.3 is 30 %; got {}", modulation));
+    }
+  }
   return options.level.empty() ? own : at_level(own, options.level);
 }
 

@@ -51,6 +51,9 @@ inline rooms::InputError wrong(const std::string& argument, const std::string& m
   return rooms::InputError({rooms::Problem{"", 0, 0, argument, message}});
 }
 
+// Of every function that takes a number of threads. Throws rooms::InputError.
+void require_threads(int threads);
+
 // Options of the command are arguments here: "--any-conditions", any_conditions.
 std::string in_arguments(std::string message);
 

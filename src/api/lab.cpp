@@ -27,6 +27,7 @@ NextExperiments next_experiments(const std::vector<std::string>& sources,
     if (sources.empty()) throw wrong("sources", "name one at least");
     if (options.count < 1) throw wrong("count", "expected 1 at least");
     if (!(options.seconds >= 0)) throw wrong("seconds", "expected 0, no limit, or more");
+    require_threads(options.threads);
     const Watch watch({}, options.stop);
     NextRun run;
     run.source = {sources,           options.belief,   options.worth,
@@ -46,6 +47,7 @@ NextExperiments next_experiments(const std::vector<std::string>& sources,
 TellResult tell_lab(const std::string& folder, const std::vector<std::string>& files,
                     const TellOptions& options) {
   return across([&] {
+    require_threads(options.threads);
     const TellRun run{folder,
                       files,
                       {options.experiment, options.field, options.design, options.finger,
@@ -62,6 +64,7 @@ TellResult tell_lab(const std::string& folder, const std::vector<std::string>& f
 
 LabState lab_state(const std::string& folder, int threads) {
   return across([&] {
+    require_threads(threads);
     const NextReport report = rooms::lab_state(folder, threads);
     return LabState{report.markdown, report.json};
   });

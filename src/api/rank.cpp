@@ -1,6 +1,9 @@
 #include "rank/rank.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <map>
 
 #include "api/inside.h"
 #include "base/text.h"
@@ -11,8 +14,38 @@
 namespace papilla::api {
 namespace {
 
+// Titles that are no two alike: "Holes (1)", "Holes (2)"; a design without a title is called by its
+// place, "design 1" the first.
+std::vector<std::string> names_by_title(const std::vector<rooms::Design>& designs) {
+  std::vector<std::string> out;
+  std::map<std::string, std::size_t> all, so_far;
+  for (const rooms::Design& design : designs) {
+    out.push_back(design.title.empty() ? fmt::format("design {}", out.size() + 1) : design.title);
+    ++all[out.back()];
+  }
+  for (std::string& name : out) {
+    if (all[name] == 1) continue;
+    std::string numbered;
+    do {
+      numbered = fmt::format("{} ({})", name, ++so_far[name]);
+    } while (all.count(numbered) > 0);  // another's title
+    name = numbered;
+  }
+  return out;
+}
+
 rooms::RankOptions inner(const std::vector<rooms::Design>& designs, const RankOptions& options) {
   rooms::RankOptions out;
+  require_threads(options.threads);
+  if (!options.names.empty() && options.names.size() != designs.size()) {
+    throw wrong("names", fmt::format("expected one for each of {} designs, got {}", designs.size(),
+                                     options.names.size()));
+  }
+  if (options.max_skins < out.batch || options.max_skins > rooms::kMostSkins) {
+    throw wrong("max_skins",
+                fmt::format("expected {}, the first step of every design, to {}, got {}", out.batch,
+                            rooms::kMostSkins, options.max_skins));
+  }
   const bool driven = std::all_of(designs.begin(), designs.end(),
                                   [](const rooms::Design& d) { return d.drive.driven(); });
   out.criteria = parse_criteria(!options.by.empty() ? options.by
@@ -45,9 +78,7 @@ Ranking rank(const std::vector<Design>& designs, const RankOptions& options) {
     std::vector<rooms::Design> candidates;
     for (const Design& design : designs) candidates.push_back(design.inside().design());
     rooms::RankOptions inside = inner(candidates, options);
-    if (inside.names.empty()) {
-      for (const rooms::Design& design : candidates) inside.names.push_back(design.title);
-    }
+    if (inside.names.empty()) inside.names = names_by_title(candidates);
     std::vector<Regions> regions;
     for (const rooms::Design& design : candidates) regions.push_back({design});
     if (inside.states.empty()) inside.states = {common_state(regions)};

@@ -9,6 +9,7 @@
 
 #include "api/inside.h"
 #include "config/writer.h"
+#include "design/title.h"
 #include "metrics/shown.h"
 #include "optim/search.h"
 #include "report/results.h"
@@ -81,6 +82,23 @@ rooms::Design design_at(const StudyProblem& problem, const std::vector<double>& 
   return beside ? space.design_of(taken) : space.design(space.snapped(unit));
 }
 
+// Throws rooms::InputError where a judgement that is ok lacks a number.
+void require_numbers(const StudyProblem& problem, const Judgement& judgement) {
+  const auto known = [](const std::vector<double>& numbers, std::size_t count) {
+    return numbers.size() == count &&
+           std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+  };
+  const std::size_t objectives = problem.objectives().size(),
+                    violations = problem.constraints().evaluated();
+  if (!judgement.ok ||
+      (known(judgement.values, objectives) && known(judgement.violations, violations)))
+    return;
+  throw wrong("judgements",
+              fmt::format("expected {} finite values and {} violations of a design that is ok; of "
+                          "one that could not be judged say ok = false",
+                          objectives, violations));
+}
+
 // As searchers are told: minimised.
 Outcome outcome_of(const StudyProblem& problem, const Judgement& judgement) {
   Outcome out;
@@ -114,6 +132,7 @@ Design Study::design(const std::vector<double>& values) const {
   return across([&] {
     Design::Inside made;
     made.study.design = design_at(*inside_->problem, values);
+    made.study.design.title = title_as_changed(inside_->study.design, made.study.design);
     made.text = to_toml(made.study.design);
     made.study = parse_study(made.text, "design.toml");
     return Design(std::make_shared<const Design::Inside>(std::move(made)));
@@ -125,6 +144,7 @@ std::vector<double> Study::own_values() const { return inside_->problem->space()
 Judgement Study::judge(const std::vector<double>& values, int threads,
                        const std::atomic<bool>* stop) const {
   return across([&] {
+    require_threads(threads);
     const StudyProblem& problem = *inside_->problem;
     const rooms::Design design = design_at(problem, values);
     if (const std::string refused = problem.constraints().geometry_reason(design); !refused.empty())
@@ -195,7 +215,10 @@ Search::~Search() = default;
 
 std::vector<std::vector<double>> Search::ask() {
   return across([&] {
-    inside_->asked.clear();
+    if (!inside_->asked.empty()) {
+      throw wrong("ask", fmt::format("tell() first what the {} designs of the last ask() are worth",
+                                     inside_->asked.size()));
+    }
     if (inside_->left > 0) inside_->asked = inside_->searcher->ask();
     inside_->asked.resize(std::min(inside_->asked.size(), inside_->left));
     std::vector<std::vector<double>> out;
@@ -209,6 +232,7 @@ void Search::tell(const std::vector<Judgement>& judgements) {
   across([&] {
     if (judgements.size() != inside_->asked.size())
       throw wrong("judgements", "expected one per design that was asked for");
+    for (const Judgement& judgement : judgements) require_numbers(inside_->problem(), judgement);
     std::vector<Evaluation> told;
     for (std::size_t i = 0; i < judgements.size(); ++i)
       told.push_back({inside_->asked[i], outcome_of(inside_->problem(), judgements[i])});

@@ -13,8 +13,8 @@
 namespace papilla::base {
 
 // Calls work(i) for i in [0, n), each exactly once. The exception of the lowest failing index is
-// rethrown. threads = 0: all that OpenMP offers. A Watch of the calling thread counts the calls and
-// may end them.
+// rethrown, that of a Watch's progress before it. threads = 0: all that OpenMP offers. A Watch of
+// the calling thread counts the calls and may end them.
 template <class Work>
 void parallel_for(int n, Work&& work, int threads = 0) {
   std::exception_ptr error;
@@ -36,6 +36,7 @@ void parallel_for(int n, Work&& work, int threads = 0) {
       }
     }
   }
+  if (watch) watch->rethrow();  // also where a piece below was stopped
   if (error) std::rethrow_exception(error);
 }
 

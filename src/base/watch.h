@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <stdexcept>
 #include <utility>
@@ -20,7 +21,8 @@ class WorkStopped : public std::runtime_error {
 // after the running ones, once `stop` is set. Of nested watches the innermost counts.
 class Watch {
  public:
-  // progress: number of finished pieces; one call at a time, from any thread; may be empty.
+  // progress: number of finished pieces; one call at a time, from any thread; may be empty. What it
+  // throws ends the work as a stop does, and comes out of the loops instead of WorkStopped.
   Watch(std::function<void(int)> progress, const std::atomic<bool>* stop)
       : progress_(std::move(progress)), stop_(stop), outer_(current_), here_(this) {
     current_ = this;
@@ -49,16 +51,33 @@ class Watch {
     if (stop_here_ && *stop_here_) throw WorkStopped();
   }
 
+  // Throws what progress has thrown.
+  void rethrow() const {
+    if (failed_) std::rethrow_exception(failure_);
+  }
   void before_piece() const {
+    rethrow();
     if (stop_ && *stop_) throw WorkStopped();
   }
   void after_piece() {
     if (!progress_) return;
 #pragma omp critical(papilla_watch)
-    progress_(++done_);
+    count();
+    rethrow();
   }
 
  private:
+  // No exception may leave a critical section of OpenMP: it is kept for the pieces to throw.
+  void count() {
+    if (failed_) return;
+    try {
+      progress_(++done_);
+    } catch (...) {
+      failure_ = std::current_exception();
+      failed_ = true;
+    }
+  }
+
   static inline thread_local Watch* current_ = nullptr;
   static inline thread_local const std::atomic<bool>* stop_here_ = nullptr;
   std::function<void(int)> progress_;
@@ -66,6 +85,8 @@ class Watch {
   Watch* outer_;
   Piece here_;  // what the thread does beside its loops
   int done_ = 0;
+  std::exception_ptr failure_;  // of progress; written once, before failed_
+  std::atomic<bool> failed_ = false;
 };
 
 }  // namespace papilla::base

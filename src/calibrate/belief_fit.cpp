@@ -72,6 +72,7 @@ class BeliefMaker {
       options.note = [&](const std::string& text) { note(hypothesis.name + ": " + text); };
       if (!own) weigh_rows(calibration);
       options.bands = residuals_.bands();
+      options.common = residuals_.common();
       options.groups = groups();
       if (!own) options.variance_factor = out_.hypotheses.front().posterior.variance_factor;
       const int most = evaluations_of_one(calibration);
@@ -95,8 +96,7 @@ class BeliefMaker {
       out_.evaluations += out.posterior.evaluations;
       std::vector<double> log_sd(out_.groups.size(), 0);
       for (std::size_t i = 0; i < sources_.size(); ++i)
-        log_sd[group(i)] +=
-            std::log(std::hypot(residuals_.rows()[i].sd, residuals_.rows()[i].sampling_sd));
+        log_sd[group(i)] += std::log(residuals_.rows()[i].own_deviation());
       log_sd_.push_back(std::move(log_sd));
     } catch (const InputError& error) {
       if (own) throw;  // nothing would be left
@@ -116,8 +116,7 @@ class BeliefMaker {
       note(fmt::format("the correction at its start: {} evaluations, {}", all,
                        duration(each * all)));
     residuals_.follow(calibration, start, [](int) { Watch::look(); });
-    const std::vector<Estimate> model = residuals_.model(calibration, start);
-    for (std::size_t i = 0; i < model.size(); ++i) residuals_.rows()[i].sampling_sd = model[i].se;
+    residuals_.weigh(calibration, start);
   }
 
   std::size_t group(std::size_t row) const {
@@ -150,7 +149,7 @@ class BeliefMaker {
       HypothesisFit& h = out_.hypotheses[k];
       if (!h.failed.empty()) continue;
       reweigh(h.posterior, factor);
-      scores.push_back(leave_out(h.posterior, groups(), log_sd_[k]));
+      scores.push_back(leave_out(h.posterior, log_sd_[k]));
       const LeftOut& left = scores.back();
       h.scores = left.scores;
       h.least_effective = left.least_effective;

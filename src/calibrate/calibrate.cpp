@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "base/constants.h"
@@ -14,6 +15,7 @@
 #include "design/design.h"
 #include "forward/forward.h"
 #include "forward/plan.h"
+#include "optim/posterior_guess.h"
 #include "published/targets.h"
 
 namespace papilla::calibrate {
@@ -94,10 +96,8 @@ class Fit {
                      rows.size(), parameters_.size()));
     residuals_.correct(calibration_, values);
     const std::vector<Estimate> before = residuals_.model(calibration_, values);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      rows[i].before = before[i].value;
-      rows[i].sampling_sd = before[i].se;
-    }
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].before = before[i].value;
+    residuals_.weigh(calibration_, values);
     state_price();
     follow(values);
     std::vector<double> r(rows.size());
@@ -171,12 +171,15 @@ class Fit {
   void fit_once() {
     in_descent_ = 0;
     trials_.clear();  // of other corrections
-    const std::vector<RowBand> bands = residuals_.bands();
+    PosteriorOptions rows;
+    rows.bands = residuals_.bands();
+    rows.common = residuals_.common();
     const auto misses = [&](std::span<const double> p, std::span<double> r) {
       const bool ok = residuals_.answers(calibration_, p, r);
       Watch::look();
       if (ok) trials_.push_back({{p.begin(), p.end()}, {r.begin(), r.end()}});
-      take_bands_off(r, bands);
+      take_bands_off(r, rows.bands);
+      rows.common.whiten(r);
       if (++evaluations_ % kEvaluationsANote == 0)
         note(fmt::format("evaluation {}: chi2 {:.4g}; {}", evaluations_, sum_of_squares(r),
                          time_left()));
@@ -186,6 +189,9 @@ class Fit {
     profiles_ = {};
     LeastSquaresOptions options = fit_options(calibration_);
     options.walks_profiles = [&](const LeastSquaresFit& fit) { return walks_profiles(fit); };
+    options.directions = [&](const std::vector<double>& values, const LeastSquaresFit& fit) {
+      return directions_by_trials(parameters_, trials_, rows, values, fit);
+    };
     options.note = [&](const std::string& text) {
       if (profiles_.begun == 0) profiles_.since = std::chrono::steady_clock::now();
       note(fmt::format("{}, {} of {}", text, ++profiles_.begun, profiles_.wanted));
@@ -198,7 +204,8 @@ class Fit {
   bool walks_profiles(const LeastSquaresFit& fit) {
     out_.fit = fit;
     std::vector<FitRow>& rows = residuals_.rows();
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].miss = fit.residuals[i];
+    const std::vector<double> misses = residuals_.misses(fit.residuals);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].miss = misses[i];
     note(fmt::format("chi2 {:.4g} after the descent; {}", fit.chi2, worst_miss_text(rows)));
     profiles_.wanted = static_cast<int>(
         std::count_if(fit.parameters.begin(), fit.parameters.end(),
@@ -241,14 +248,19 @@ class Fit {
     out_.finger.uncertainty = deviations(out_.fit, options_.note);
     out_.rows = residuals_.rows();
     const std::vector<Estimate> after = residuals_.model(calibration_, out_.fit.values());
-    std::vector<double> misses(after.size());
-    residuals_.answers(after, misses);
-    take_bands_off(misses, residuals_.bands());
+    std::vector<double> residuals(after.size());
+    residuals_.residuals(calibration_, out_.fit.values(), residuals);
+    const std::vector<double> misses = residuals_.misses(std::move(residuals));
+    const CommonErrors common = residuals_.common();
     for (std::size_t i = 0; i < after.size(); ++i) {
       out_.rows[i].after = after[i].value;
       out_.rows[i].miss = misses[i];
+      out_.rows[i].deviation = out_.rows[i].own_deviation() * common.deviation(i);
     }
-    out_.evaluations = evaluations_ + 2;  // the start, and the fitted finger
+    std::tie(out_.least_factor, out_.largest_factor) =
+        residuals_.factors_between(calibration_, out_.fit.values());
+    // The start, its skins, and the fitted finger.
+    out_.evaluations = evaluations_ + 2 + !calibration_.data.empty();
     out_.gap_before = capacitance_gap(out_.start);
     out_.gap_after = capacitance_gap(out_.finger);
     if (options_.check) {

@@ -23,6 +23,9 @@ struct CalibrationResult {
   int iterations = 0;  // that the fit had at most
   std::vector<FitRow> rows;
   double chi2_before = 0;
+  // What frictions of the descent's level were multiplied by at the fitted finger. Eq.
+  // calibration.6
+  double least_factor = 1, largest_factor = 1;
   double gap_before = 0, gap_after = 0;      // capacitance_gap [m]
   std::vector<double> friction_coefficient;  // after, flat glass, at 15, 35, 55, 75 % RH
   int evaluations = 0;

@@ -11,6 +11,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/constants.h"
 #include "base/files.h"
 #include "config/writer.h"
 #include "forward/forward.h"
@@ -31,8 +32,6 @@ double middle(const FitRow& row) {
   return (row.low + row.high) / 2;
 }
 
-double deviation(const FitRow& row) { return std::hypot(row.sd, row.sampling_sd); }
-
 // Tells what its scope has taken [s].
 class Stopwatch {
  public:
@@ -52,6 +51,27 @@ std::string as_text(const SkinSampling& s) {
   return fmt::format("{} {} {} {}", s.level, s.skins, s.first_skin, s.grid);
 }
 
+// Of rows of unit length over the skins, the share of their correlations that is meant: what so few
+// skins show by chance is left to the rows' own errors (Schaefer and Strimmer 2005, the target
+// being no correlation). Eq. calibration.12
+double meant_correlation(const std::vector<std::vector<double>>& rows) {
+  double chance = 0, all = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      double correlation = 0, squares = 0;
+      const auto n = static_cast<double>(rows[i].size());
+      for (std::size_t k = 0; k < rows[i].size(); ++k) {
+        const double product = rows[i][k] * rows[j][k];
+        correlation += product;
+        squares += square(product);
+      }
+      chance += n / (n - 1) * (squares - square(correlation) / n);
+      all += square(correlation);
+    }
+  }
+  return all > 0 ? std::max(0.0, 1 - chance / all) : 0;
+}
+
 // All that the model's answers depend on beside finger and sampling.
 std::string problem_of(const Calibration& calibration, const std::vector<MeasuredGroup>& groups) {
   std::string out = PAPILLA_VERSION "\n" + read_bytes(calibration.file);
@@ -66,6 +86,12 @@ std::string problem_of(const Calibration& calibration, const std::vector<Measure
 }
 
 }  // namespace
+
+double FitRow::own_deviation() const {
+  double shared = 0;
+  for (const double share : common) shared += square(share);
+  return std::sqrt(square(sd) + square(sampling_sd) * std::max(0.0, 1 - shared));
+}
 
 const FitRow& worst_row(const std::vector<FitRow>& rows) {
   return *std::max_element(rows.begin(), rows.end(), [](const FitRow& a, const FitRow& b) {
@@ -164,6 +190,22 @@ std::vector<Residuals::Factor> Residuals::followed(const Calibration& from,
   return out;
 }
 
+std::pair<double, double> Residuals::factors_between(const Calibration& from,
+                                                     std::span<const double> values) const {
+  double least = kInfinity, largest = 0;
+  const std::vector<Factor> all = followed(from, values);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto look = [&](double log_factor, double sd) {
+      if (!(sd > 0)) return;
+      least = std::min(least, std::exp(log_factor));
+      largest = std::max(largest, std::exp(log_factor));
+    };
+    look(all[i].off, calibration_.data[i].off_sd);
+    look(all[i].on, calibration_.data[i].on_sd);
+  }
+  return largest > 0 ? std::pair(least, largest) : std::pair(1.0, 1.0);
+}
+
 double Residuals::correct(const Calibration& from, std::span<const double> values) {
   if (calibration_.data.empty()) return 0;
   const Finger finger = with_parameters(from, values);
@@ -227,7 +269,60 @@ bool Residuals::residuals(const Calibration& from, std::span<const double> value
                           std::span<double> r) {
   if (!answers(from, values, r)) return false;
   take_bands_off(r, bands());
+  common().whiten(r);
   return true;
+}
+
+std::vector<double> Residuals::misses(std::vector<double> residuals) const {
+  const CommonErrors together = common();
+  together.colour(residuals);
+  for (std::size_t i = 0; i < residuals.size(); ++i) residuals[i] /= together.deviation(i);
+  return residuals;
+}
+
+// Eq. calibration.12
+void Residuals::weigh(const Calibration& from, std::span<const double> values) {
+  const std::vector<Estimate> here = model(from, values);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    rows_[i].sampling_sd = here[i].se;
+    rows_[i].common.clear();
+  }
+  const std::vector<std::vector<double>> of_skins = skin_moves(with_parameters(from, values));
+  std::vector<std::vector<double>> moves;  // of unit length
+  std::vector<FitRow*> measured;
+  std::size_t row = targets_.size();
+  for (std::size_t i = 0; i < of_skins.size(); ++i) {
+    const FrictionDatum& datum = calibration_.data[i / 2];
+    if (!((i % 2 == 0 ? datum.off_sd : datum.on_sd) > 0)) continue;
+    FitRow& friction = rows_[row++];
+    double length = 0;
+    for (const double move : of_skins[i]) length = std::hypot(length, move);
+    if (!(length > 0)) continue;  // of one skin, or what no skin changes
+    measured.push_back(&friction);
+    moves.push_back(of_skins[i]);
+    for (double& move : moves.back()) move /= length;
+  }
+  const double share = std::sqrt(meant_correlation(moves));
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    for (const double move : moves[i]) measured[i]->common.push_back(share * move);
+  }
+}
+
+CommonErrors Residuals::common() const {
+  std::size_t skins = 0;
+  for (const FitRow& row : rows_) skins = std::max(skins, row.common.size());
+  if (skins < 2) return {};
+  // Few skins know badly how far all of them are off; errors of each row's own average out.
+  const double student =
+      student_t_quantile(0.975, static_cast<int>(skins) - 1) / normal_quantile(0.975);
+  Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(size(), static_cast<Eigen::Index>(skins));
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const FitRow& row = rows_[i];
+    for (std::size_t k = 0; k < row.common.size(); ++k)
+      moves(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          student * row.common[k] * row.sampling_sd / row.own_deviation();
+  }
+  return CommonErrors(moves);
 }
 
 bool Residuals::answers(const Calibration& from, std::span<const double> values,
@@ -238,7 +333,7 @@ bool Residuals::answers(const Calibration& from, std::span<const double> values,
 bool Residuals::answers(const std::vector<Estimate>& values, std::span<double> r) const {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i].value)) return false;
-    r[i] = (values[i].value - middle(rows_[i])) / deviation(rows_[i]);
+    r[i] = (values[i].value - middle(rows_[i])) / rows_[i].own_deviation();
   }
   return true;
 }
@@ -246,8 +341,8 @@ bool Residuals::answers(const std::vector<Estimate>& values, std::span<double> r
 std::vector<RowBand> Residuals::bands() const {
   std::vector<RowBand> out;
   for (const FitRow& row : rows_) {
-    out.push_back(
-        {(row.low - middle(row)) / deviation(row), (row.high - middle(row)) / deviation(row)});
+    const double unit = row.own_deviation();
+    out.push_back({(row.low - middle(row)) / unit, (row.high - middle(row)) / unit});
   }
   return out;
 }
@@ -275,6 +370,18 @@ std::vector<Residuals::Friction> Residuals::evaluated(const Finger& finger,
                                                       const SkinSampling& sampling,
                                                       bool corrected) const {
   std::vector<Friction> out(calibration_.data.size());
+  evaluate_groups(finger, sampling, corrected,
+                  [&](std::size_t datum, const Response& response, std::size_t humidity) {
+                    const ResponsePoint& p = response.points[humidity];
+                    out[datum] = {{p.friction_off.value, p.friction_off.parts.sampling},
+                                  {p.friction_on.value, p.friction_on.parts.sampling}};
+                  });
+  return out;
+}
+
+void Residuals::evaluate_groups(
+    const Finger& finger, const SkinSampling& sampling, bool corrected,
+    const std::function<void(std::size_t, const Response&, std::size_t)>& use) const {
   Fidelity fidelity = sampling.fidelity(threads_);
   if (corrected) fidelity.control_skins = fidelity_level(sampling.level).control_skins;
   for (const MeasuredGroup& s : groups_) {
@@ -282,11 +389,40 @@ std::vector<Residuals::Friction> Residuals::evaluated(const Finger& finger,
     scene.finger = finger.touching_as(scene.finger);
     scene.model = finger.calibrated_for;
     const Response response = evaluate(scene, s.design.texture, fidelity);
-    for (std::size_t k = 0; k < s.rows.size(); ++k) {
-      const ResponsePoint& p = response.points[s.humidity_of[k]];
-      out[s.rows[k]] = {{p.friction_off.value, p.friction_off.parts.sampling},
-                        {p.friction_on.value, p.friction_on.parts.sampling}};
-    }
+    for (std::size_t k = 0; k < s.rows.size(); ++k) use(s.rows[k], response, s.humidity_of[k]);
+  }
+}
+
+std::vector<std::vector<double>> Residuals::skin_moves(const Finger& finger) {
+  const auto skins = static_cast<std::size_t>(calibration_.sampling.skins);
+  const std::size_t count = 2 * calibration_.data.size();
+  const std::vector<Estimate> flat = kept_.get(
+      "skins " + as_text(calibration_.sampling) + write_toml(to_table(finger)), count * skins, [&] {
+        std::vector<Estimate> out(count * skins);
+        evaluate_groups(finger, calibration_.sampling, false,
+                        [&](std::size_t datum, const Response& response, std::size_t humidity) {
+                          const auto add = [&](std::size_t at,
+                                               Measured PointQuantities::*friction) {
+                            const auto of = [&](const std::vector<ResponsePoint>& points) {
+                              return (points[humidity].*friction).value;
+                            };
+                            std::vector<double> without;
+                            for (const auto& points : response.without)
+                              without.push_back(of(points));
+                            if (without.size() != skins) return;  // a single skin is never left out
+                            const std::vector<double> moves =
+                                error_moves(jackknife_samples(of(response.points), without));
+                            for (std::size_t k = 0; k < skins; ++k)
+                              out[at * skins + k].value = moves[k];
+                          };
+                          add(2 * datum, &PointQuantities::friction_off);
+                          add(2 * datum + 1, &PointQuantities::friction_on);
+                        });
+        return out;
+      });
+  std::vector<std::vector<double>> out(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t k = 0; k < skins; ++k) out[i].push_back(flat[i * skins + k].value);
   }
   return out;
 }

@@ -4,13 +4,16 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/rooms.h"
 #include "calibrate/calibration_file.h"
 #include "calibrate/kept_answers.h"
 #include "design/design.h"
+#include "forward/response.h"
 #include "numerics/statistics.h"
+#include "optim/common_errors.h"
 #include "optim/row_quadratics.h"
 #include "published/targets.h"
 
@@ -23,7 +26,14 @@ struct FitRow {
   double low = 0, high = 0, sd = 0;  // what the data say; low = high: a value
   double sampling_sd = 0;            // of the model, from its skins; already in the weight
   double before = 0, after = 0;      // the model
-  double miss = 0;                   // of `after`: Eq. calibration.5
+  double miss = 0;                   // of `after`, over `deviation`
+  double deviation = 0;  // sd and sampling, of which a part is common. Eq. calibration.12
+  // What each skin adds to the error that this row has in common with others, over sampling_sd: the
+  // sum of squares is the share of its variance that is common. Empty: none. Eq. calibration.12
+  std::vector<double> common{};
+
+  // Of what no other row shares: of the datum, and of the model.
+  double own_deviation() const;
 };
 
 // The row that is missed by most, of one at least.
@@ -64,15 +74,24 @@ class Residuals {
   // `done` hears. Eq. calibration.6
   void follow(const Calibration& from, std::span<const double> values,
               const std::function<void(int)>& done = {});
+  // The least and the largest of those factors at these values, 1 without frictions.
+  std::pair<double, double> factors_between(const Calibration& from,
+                                            std::span<const double> values) const;
   // What answers of the model cost when they were last computed [s]; 0: all were kept.
   double seconds_a_model() const { return target_seconds_ + fast_seconds_; }
   double seconds_a_factor() const { return fast_seconds_ + good_seconds_; }
 
-  // Distance from the band in standard deviations: the data's and the model's sampling error,
-  // which stays what it was at the start. false: the model has no answer. Eq. calibration.5
+  // What the model's skins leave open of every row at these values, and how much of it rows have in
+  // common: it stays in their weights. Eq. calibration.12
+  void weigh(const Calibration& from, std::span<const double> values);
+  CommonErrors common() const;
+  // Distances from the bands in standard deviations, independent of one another: the data's and the
+  // model's sampling error. false: the model has no answer. Eq. calibration.5
   bool residuals(const Calibration& from, std::span<const double> values, std::span<double> r);
-  // The same before the band is taken off: from its middle, or from its one end. `bands` in the
-  // same unit.
+  // `FitRow::miss` of such residuals: each by its own and the common error.
+  std::vector<double> misses(std::vector<double> residuals) const;
+  // The model's answers from the middle of the band, or from its one end, in standard deviations of
+  // what is the row's own. `bands` in the same unit.
   bool answers(const Calibration& from, std::span<const double> values, std::span<double> r);
   bool answers(const std::vector<Estimate>& model, std::span<double> r) const;
   std::vector<RowBand> bands() const;
@@ -98,6 +117,12 @@ class Residuals {
                                   bool corrected);
   std::vector<Friction> evaluated(const Finger& finger, const SkinSampling& sampling,
                                   bool corrected) const;
+  // Calls `use(datum, response, humidity)` for every datum.
+  void evaluate_groups(
+      const Finger& finger, const SkinSampling& sampling, bool corrected,
+      const std::function<void(std::size_t, const Response&, std::size_t)>& use) const;
+  // What each skin moves the frictions of each datum by [N]: off, then on. [2 datum + on][skin]
+  std::vector<std::vector<double>> skin_moves(const Finger& finger);
 
   const Calibration& calibration_;
   int threads_;

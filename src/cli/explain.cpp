@@ -34,6 +34,12 @@ std::string range_text(const Variable& v) {
   return v.path + " " + join_names(choices);
 }
 
+// The look of the study's own design: by which theory, and what it takes in all scenarios [s].
+struct LookTime {
+  std::string theory;  // "": nothing asks for a look
+  double each = 0;
+};
+
 // What a study varies, wants and keeps: much of it may be its base's.
 std::string aims_text(const Study& study) {
   std::vector<std::string> varied, wanted, kept, fingers;
@@ -57,19 +63,25 @@ std::string aims_text(const Study& study) {
 }
 
 // What `papilla optimize` would take.
-std::string study_text(const Study& study) {
+std::string study_text(const Study& study, const LookTime& look) {
   const StudyCost cost = study_cost(study);
   const int processors = processors_for(study);
-  const double clock = search_pace(study) / processors;
+  const double clock = search_pace(study) / processors,
+               looks = look.each * static_cast<double>(cost.looked_at) / processors;
   std::string out =
       aims_text(study) +
       fmt::format(
           "as a study: {} of {} each, then {} designs judged again, {} finalists and checks: {} "
           "to {} on {} as busy as this machine is now, and about {:.0f} MB a worker\n",
           counted(cost.evaluations, "evaluation"), counted(cost.tasks, "task"), cost.narrowed,
-          cost.finalists, duration(kLeastOfPrice * clock * cost.seconds),
-          duration(kMostOfPrice * clock * cost.seconds), counted(processors, "processor"),
+          cost.finalists, duration(kLeastOfPrice * clock * cost.seconds + looks),
+          duration(kMostOfPrice * clock * cost.seconds + looks), counted(processors, "processor"),
           std::ceil(1e-6 * cost.bytes));
+  if (cost.looked_at > 0)
+    out += fmt::format(
+        "of that the looks of {} designs take {}, if each takes what the study's own does ({} by "
+        "the theory \"{}\")\n",
+        cost.looked_at, duration(looks), duration(look.each), look.theory);
   if (cost.members > 0)
     out += fmt::format("of that the finalists at {} of belief take up to {}\n",
                        counted(static_cast<int>(cost.members), "member"),
@@ -92,19 +104,18 @@ std::string study_text(const Study& study) {
   return out;
 }
 
-// What `papilla evaluate` would take here. Members of belief by their price beside that of the
-// rest.
-std::string time_text(const Design& design, const Fidelity& fidelity, const Plan& plan) {
+// What `papilla evaluate` would take here.
+std::string time_text(const Design& design, const Fidelity& fidelity, const LookTime& look) {
   const Scene scene = scene_of(design);
   const double seconds = measured_seconds(scene, design.texture, fidelity);
   std::string out = fmt::format("on this machine about {} of one core, as two of the skins tell",
                                 duration(seconds));
-  if (const ModelCost cost = model_cost(scene, fidelity); cost.members > 0) {
-    const double share =
-        cost.runs * make_plan(scene, design.texture, cost.fidelity).seconds() / plan.seconds();
+  if (!look.theory.empty())
+    out += fmt::format(", {} for the look (--appearance: with)", duration(look.each));
+  if (const ModelCost cost = model_cost(scene, fidelity); cost.members > 0)
     out += fmt::format(", and {} for the {} members of the finger's belief (--no-model: without)",
-                       duration(share * seconds), cost.members);
-  }
+                       duration(measured_belief_seconds(scene, design.texture, fidelity)),
+                       cost.members);
   return out + '\n';
 }
 
@@ -155,11 +166,20 @@ int explain(const Context& context, const DesignOptions& options, bool measure) 
   const TargetOptions target{.target = design.accuracy.target,
                              .droplet_seeds = design.accuracy.droplet_seeds};
   const Fidelity fidelity = target.target > 0 ? pilot_fidelity(target) : fidelity_of(design);
-  const Plan plan = measure ? measured_plan(scene_of(design), design.texture, fidelity)
-                            : make_plan(scene_of(design), design.texture, fidelity);
+  LookTime look{look_theory(study)};
+  Plan plan = measure ? measured_plan(scene_of(design), design.texture, fidelity)
+                      : make_plan(scene_of(design), design.texture, fidelity);
+  if (!look.theory.empty()) plan = with_look(std::move(plan), look.theory);
   if (options.json) {
     std::cout << plan_document(plan) << '\n';
     return kSuccess;
+  }
+  if (!look.theory.empty()) {
+    if (look.theory == text(OpticsRegime::Rigorous))
+      context.note(fmt::format(
+          "timing the look of this design by the theory \"{}\", which may take half a minute",
+          look.theory));
+    look.each = look_price(study);
   }
   std::string text = (design.title.empty() ? study.name : design.title) + '\n';
   if (target.target > 0) {
@@ -172,13 +192,13 @@ int explain(const Context& context, const DesignOptions& options, bool measure) 
           "accuracy.level and accuracy.grid count for --sweep, --voltage-for and pictures only\n";
   }
   text += plan.text();
-  text += time_text(design, fidelity, plan);
+  text += time_text(design, fidelity, look);
   for (const std::string& line : calibration_mismatch(design)) text += "warning: " + line + '\n';
   for (const std::string& rims : cut_rims_of(design.texture, "texture"))
     text += "warning: " + rims + '\n';
   if (const std::string why = frequency_not_felt(design); design.drive.driven() && !why.empty())
     text += "frequency not felt: " + why + '\n';
-  if (study.is_study()) text += study_text(study);
+  if (study.is_study()) text += study_text(study, look);
   context.print(text);
   return kSuccess;
 }

@@ -165,10 +165,11 @@ std::string resume_command(const OptimizeOptions& options, const std::string& fo
 std::string price_text(const Study& study) {
   const StudyCost cost = study_cost(study);
   const int processors = processors_for(study);
-  const double seconds = search_pace(study) * cost.seconds / processors;
+  const double seconds = search_pace(study) * cost.seconds / processors,
+               looks = look_price(study) * static_cast<double>(cost.looked_at) / processors;
   std::string out =
-      fmt::format("expected: {} to {} on {}, for {}", duration(kLeastOfPrice * seconds),
-                  duration(kMostOfPrice * seconds), counted(processors, "processor"),
+      fmt::format("expected: {} to {} on {}, for {}", duration(kLeastOfPrice * seconds + looks),
+                  duration(kMostOfPrice * seconds + looks), counted(processors, "processor"),
                   counted(cost.evaluations, "evaluation"));
   if (study.search.time > 0)
     out += fmt::format("; the clock ends it after {}", duration(study.search.time));

@@ -183,7 +183,7 @@ void add_rank(Command app, Context& context) {
   command.add_option("--state", options->states, "Finger states: clean,natural,wet")
       .type_name("STATE,...");
   command.add_option("--max-skins", options->max_skins, "Most skins per candidate and state")
-      .range(12, 100000);
+      .range(RankOptions{}.batch, kMostSkins);
   command.add_flag("--parameters", options->parameters,
                    "Insist on what the finger's fitted numbers (its [[uncertainty]]) leave of each "
                    "value and difference: in every interval and probability where it is known");

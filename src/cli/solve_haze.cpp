@@ -1,4 +1,6 @@
 // papilla solve haze: how a design or a heightmap looks on glass.
+#include <fmt/format.h>
+
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -24,6 +26,14 @@ struct HazeOptions {
   std::vector<Option> of_design, of_height;  // that only one of the two obeys
 };
 
+void expect_fill_below(const OpticalMedia& media) {
+  if (media.fill > media.index)
+    throw InputError(
+        fmt::format("--fill-index: expected 1 to {:.4g}, the index of what the "
+                    "texture is cut into",
+                    media.index));
+}
+
 int solve(const HazeOptions& options) {
   if (options.design.file.empty() == options.scan.file.empty())
     throw InputError("expected a design FILE or --height FILE");
@@ -44,15 +54,14 @@ int solve(const HazeOptions& options) {
     if (options.index > 0) design.surface.refractive_index = options.index;
     if (options.fill > 0) design.view.fill_index = options.fill;
     if (!angles.empty()) design.view.angles = angles;
-    if (design.view.fill_index > design.surface.refractive_index)
-      throw InputError("--fill-index: expected 1 to the glass's index");
+    expect_fill_below(media_of(design.surface, design.view));
     say_scans({design});
     o = appearance_of(design);
   } else {
     OpticalMedia media;
     if (options.index > 0) media.index = options.index;
     if (options.fill > 0) media.fill = options.fill;
-    if (media.fill > media.index) throw InputError("--fill-index: expected 1 to the glass's index");
+    expect_fill_below(media);
     Light light;
     if (!angles.empty()) light.angles = angles;
     const Scan scan = read_scan(options.scan.source());

@@ -13,6 +13,7 @@
 #include "config/reader.h"
 #include "config/writer.h"
 #include "design/title.h"
+#include "forward/appearance.h"
 #include "forward/counterface.h"
 #include "geometry/measured_map.h"
 #include "geometry/roughness.h"
@@ -153,9 +154,12 @@ void film_problems(const Texture& texture, const Surface& surface, Problems& out
   if (-planes->low >= thickness) {
     out.push_back(
         {fmt::format("surface.dielectric.{}.thickness", carrying),
-         fmt::format("{}: the texture is cut {} deep into this planar layer and would reach its "
-                     "electrode; make it thicker, or the texture shallower",
-                     format_quantity(thickness, "nm"), format_quantity(-planes->low, "nm"))});
+         fmt::format("{}: the texture is cut {} deep into this planar layer and would reach {}; "
+                     "make it thicker, or the texture shallower",
+                     format_quantity(thickness, "nm"), format_quantity(-planes->low, "nm"),
+                     carrying > 0 ? "the layer below it, and cuts through several layers are not "
+                                    "modelled"
+                                  : "its electrode")});
   }
 }
 
@@ -239,8 +243,10 @@ void relaxation_problems(const Surface& surface, Problems& out) {
 
 void view_problems(const View& view, const Surface& surface, Problems& out) {
   if (view.angles.empty()) out.push_back({"view.angles", "expected at least one angle"});
-  if (view.fill_index > surface.refractive_index) {
-    out.push_back({"view.fill_index", "expected at most surface.refractive_index"});
+  if (const double index = media_of(surface, view).index; view.fill_index > index) {
+    out.push_back(
+        {"view.fill_index",
+         fmt::format("expected at most {:.4g}, the index of what the texture is cut into", index)});
   }
 }
 

@@ -18,4 +18,8 @@ inline constexpr std::size_t kLongestTitle = 1000;  // it stands in every file a
 // longer than titles are stays as it is.
 std::string title_as_set(const Design& design, const std::vector<std::string>& overrides);
 
+// The same of a design that a search made of the one before: by its kind and its numbers, four
+// digits each; "; texture flat" where the relief went. The title of `made` itself says nothing.
+std::string title_as_changed(const Design& before, const Design& made);
+
 }  // namespace papilla::design

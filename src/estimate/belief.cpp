@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "estimate/parameters.h"
 #include "forward/dry_areas.h"
+#include "forward/price.h"
 #include "metrics/metrics.h"
 
 namespace papilla::estimate {
@@ -26,6 +27,17 @@ std::string absent_belief(const Scene& scene) {
                        scene.finger.name);
   return {};
 }
+
+// The scene as it is or at a member; `resolved`: with areas as the number itself has them, where
+// the pixels leave octaves out. Eq. accuracy.17
+Response run_few(const Scene& scene, const Texture& texture, const Fidelity& few, bool resolved) {
+  const Watch quiet({}, nullptr);  // members are counted, not their skins
+  return resolved ? evaluate_resolved(scene, texture, few, kFewDrySkins)
+                  : evaluate(scene, texture, few);
+}
+
+// Whether the number that members move has resolved areas.
+bool resolves(const Fidelity& fidelity) { return fidelity.control_skins > 1; }
 
 }  // namespace
 
@@ -58,8 +70,7 @@ void add_belief(Response& response, const Scene& scene, const Texture& texture,
   const Belief belief = belief_of(scene.finger);
   Fidelity few = belief_fidelity(fidelity, skins);
   const int threads = few.threads;
-  few.threads = 1;                                   // a member each
-  const bool resolved = fidelity.control_skins > 1;  // so the number itself is
+  few.threads = 1;  // a member each
   out.file = belief.file;
   out.skins = few.skins;
   out.grid = few.grid;
@@ -73,9 +84,7 @@ void add_belief(Response& response, const Scene& scene, const Texture& texture,
       static_cast<int>(scenes.size()),
       [&](int i) {
         const auto k = static_cast<std::size_t>(i);
-        const Watch quiet({}, nullptr);  // members are counted, not their skins
-        runs[k] = resolved ? evaluate_resolved(scenes[k], texture, few, kFewDrySkins)
-                           : evaluate(scenes[k], texture, few);
+        runs[k] = run_few(scenes[k], texture, few, resolves(fidelity));
       },
       threads);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -91,6 +100,23 @@ void add_belief(Response& response, const Scene& scene, const Texture& texture,
   }
   response.seconds += out.seconds;
   state_belief(response);
+}
+
+double measured_belief_seconds(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
+                               int skins) {
+  if (!absent_belief(scene).empty()) return 0;
+  Fidelity few = belief_fidelity(fidelity, skins);
+  few.threads = 1;
+  const auto seconds = [&](const Scene& at) {
+    return work_seconds([&] { run_few(at, texture, few, resolves(fidelity)); });
+  };
+  // The first makes tables and transforms that the others have.
+  const double own = seconds(scene);
+  const std::vector<Scene> members = belief_scenes(belief_of(scene.finger), scene);
+  const std::size_t timed = std::min<std::size_t>(3, members.size());
+  double some = 0;
+  for (std::size_t k = 0; k < timed; ++k) some += seconds(members[k * members.size() / timed]);
+  return own + some * static_cast<double>(members.size()) / static_cast<double>(timed);
 }
 
 void state_belief(Response& response) {

@@ -46,15 +46,15 @@ void warn(Optics& o, const std::string& text) {
   o.warning += (o.warning.empty() ? "" : "; ") + text;
 }
 
-// A layer of features finer than the wavelength.
+// A layer of features finer than the wavelength; `resolved`: as in Disorder.
 Optics layer(const FeatureArray& array, const TextureFacts& known, const OpticalMedia& media,
-             const View& view, const Light& light) {
+             const View& view, const Light& light, double resolved = 0) {
   const bool lines = array.shape == FeatureArray::Shape::Line;
   const Features features = lines        ? Features::Lines
                             : array.deep ? Features::Holes
                                          : Features::Pillars;
   return effective_medium(known.open_share.value(), known.relief.height().value(), features, media,
-                          {array.width, view.displacement, view.diameter_scatter}, light);
+                          {array.width, view.displacement, view.diameter_scatter, resolved}, light);
 }
 
 double red() { return visible_wavelengths().back(); }
@@ -95,6 +95,15 @@ Heightmap one_period(const Texture& texture, double period) {
   Grid grid = patch_grid(texture, 2 * kPeriodPixels, 2 * period);
   grid.nx /= 2, grid.lx /= 2;
   return generate(texture, grid);
+}
+
+// Where it is not counted: what the defaults make is little, and a perfect array is what is shown.
+void warn_of_disorder(Optics& out, const View& view, const std::string& where) {
+  const View usual;
+  if (view.displacement > usual.displacement || view.diameter_scatter > usual.diameter_scatter)
+    warn(out, fmt::format("view.displacement and view.diameter_scatter are not counted {}: the "
+                          "haze is that of the perfect array",
+                          where));
 }
 
 void warn_of_features(Optics& out, const TextureFacts& known) {
@@ -158,12 +167,14 @@ Optics screen(const Texture& texture, const OpticalMedia& media, const Light& li
 Optics rigorous(const FeatureArray& array, const TextureFacts& known, const OpticalMedia& media,
                 const View& view, const Light& light) {
   Optics out = lattice_look(array, media, light.meters);
-  // Disorder of a lattice that diffracts little is that of its layer, without what the plate
-  // scatters: the lattice's look has that. Eq. optics.7
-  if (known.open_share && known.period() < finest_period(media.index, view)) {
+  // Disorder comes from the layer, without what the plate scatters: the lattice's look has that.
+  // Up to the periods of screens features are resolved more and more. Eq. optics.7
+  if (known.open_share) {
+    const double fine = finest_period(media.index, view), coarse = 2 * red();
+    const double resolved = std::clamp((known.period() - fine) / (coarse - fine), 0.0, 1.0);
     Light along{.wavelengths = light.wavelengths, .meters = light.meters};
     along.meters.inner_haze = 0;
-    const Optics disordered = layer(array, known, media, view, along);
+    const Optics disordered = layer(array, known, media, view, along, resolved);
     for (std::size_t k = 0; k < out.spectrum.size(); ++k) {
       SpectrumPoint& p = out.spectrum[k];
       const double kept = 1 - disordered.spectrum[k].haze;
@@ -172,6 +183,8 @@ Optics rigorous(const FeatureArray& array, const TextureFacts& known, const Opti
       p.transmitted *= kept;
     }
     photopic_means(out, along);
+  } else {
+    warn_of_disorder(out, view, "of a stack");
   }
   return out;
 }
@@ -206,6 +219,15 @@ Optics computed(const Seen& seen) {
                           "takes holes and pillars up to {:.0f} um and lines up to {:.0f} um, seen "
                           "along the normal",
                           1e6 * kLargestDiscs, 1e6 * kLargestLines));
+  if (out.regime == OpticsRegime::PhaseScreen && known.cell)
+    warn_of_disorder(out, view, fmt::format("above periods of {:.0f} nm", 1e9 * 2 * red()));
+  if (const double path = media.path(); path > kLongestPath) {
+    warn(out, fmt::format("films make a path of {:.3g} um (2 n d, all of them), whose fringes are "
+                          "not followed beyond {:.0f} um: gloss is known to ten units and "
+                          "transmittance to half a per cent; make the films thinner, or give one "
+                          "as thick as a plate the index of the glass",
+                          1e6 * path, 1e6 * kLongestPath));
+  }
   if (view.fill_index > 1) {
     warn(out, "seen with the texture filled; the finger feels it open");
   }
@@ -234,14 +256,29 @@ std::string why_not(const Texture& texture, const OpticalMedia& media, const Vie
            "black backing alone";
   }
   if (regime != OpticsRegime::Refused) return {};
+  const double period = known.period(), fine = finest_period(media.index, view);
+  const bool lines = sections(texture).has_value();
+  if (period < fine) {
+    const std::string below = fmt::format(
+        "period {:.0f} nm is below {:.0f} nm, where holes, pillars and gratings alone are layers "
+        "(effective medium): gradual heights have no index of one layer",
+        1e9 * period, 1e9 * fine);
+    if (!lines)
+      return below + fmt::format("; take {:.0f} nm or more (phase screen)", 1e9 * 2 * red());
+    return below + (view.lattices == LatticeTheory::Scalar
+                        ? "; the Fourier modal method takes these lines: view.lattices = "
+                          "\"by_period\""
+                        : "; the Fourier modal method takes these lines, seen along the normal "
+                          "alone (view.angles = [\"0 deg\"])");
+  }
   const std::string band = fmt::format(
       "period {:.0f} nm is neither below {:.0f} nm (effective medium) nor above {:.0f} nm (phase "
       "screen)",
-      1e9 * known.period(), 1e9 * finest_period(media.index, view), 1e9 * 2 * red());
+      1e9 * period, 1e9 * fine, 1e9 * 2 * red());
   if (view.lattices == LatticeTheory::Scalar) return band + ", and view.lattices is \"scalar\"";
-  return band + (sections(texture) ? "; between, lattices are seen along the normal alone "
-                                     "(view.angles = [\"0 deg\"])"
-                                   : "; between, holes, pillars and lines alone are known");
+  return band + (lines ? "; between, lattices are seen along the normal alone "
+                         "(view.angles = [\"0 deg\"])"
+                       : "; between, holes, pillars and lines alone are known");
 }
 
 }  // namespace
@@ -349,6 +386,12 @@ std::optional<FeatureArray> sections(const Texture& texture) {
 
 std::string optics_refusal(const Texture& texture, const Surface& surface, const View& view) {
   return why_not(texture, media_of(surface, view), view);
+}
+
+std::string optics_theory(const Texture& texture, const Surface& surface, const View& view) {
+  const OpticalMedia media = media_of(surface, view);
+  const std::string why = why_not(texture, media, view);
+  return why.empty() ? text(regime_of(texture, media.index, view)) : why;
 }
 
 Optics appearance(const Texture& texture, const Surface& surface, const View& view) {

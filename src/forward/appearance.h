@@ -18,6 +18,8 @@ Meters meters_of(const Surface& surface, const View& view);
 
 // Why no theory here can say how a texture looks; empty: one can. Free.
 std::string optics_refusal(const Texture& texture, const Surface& surface, const View& view);
+// The theory that says how it looks, in words, or why none does. Free.
+std::string optics_theory(const Texture& texture, const Surface& surface, const View& view);
 
 // An array, or lines with gradual walls, as outlines by height; none of other textures.
 std::optional<FeatureArray> sections(const Texture& texture);

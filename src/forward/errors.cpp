@@ -29,7 +29,6 @@ constexpr double kOfFeatures = 0.2;
 // By the load law the modulation's way to the limit is part of its method error; half of that way
 // is taken as not known. Eq. accuracy.2
 constexpr double kUnknownShare = 0.5;
-constexpr double kNothingLeft = 0.05;  // of the largest over humidity
 
 // of(k): the difference without skin k, -1: of all; no samples where it is not defined.
 std::vector<double> samples_of(std::size_t skins,
@@ -88,33 +87,39 @@ double own_step(const Plan& fine, const Plan& coarse) {
   return 1 - (1 - kOfFeatures) * std::clamp(dropped, 0.0, 1.0);
 }
 
-// Numbers of one origin at each humidity, each given the larger of its own and the root mean square
-// over humidity, as a difference may cross zero between two of them. Humidities at which next to
-// nothing of the quantity `of` is left (a flooded patch) say nothing about the others: their
-// differences are large for being relative. Eq. accuracy.2, accuracy.3
-void level_out(std::vector<double>& size, const std::vector<double>& of) {
-  double sum = 0, largest = 0;
-  int counted = 0;
-  for (double v : of) largest = std::max(largest, std::abs(v));
-  for (std::size_t i = 0; i < size.size(); ++i) {
-    if (std::abs(of[i]) < kNothingLeft * largest) continue;
-    sum += square(size[i]);
-    ++counted;
-  }
-  const double rms = std::sqrt(sum / std::max(counted, 1));
-  for (double& v : size) v = std::max(v, rms);
+// What a relative error at a humidity with `there` of a quantity says of another with `here`: small
+// ones are alike over humidity; one as large as what is left is an absolute one, of less where more
+// is left. Eq. accuracy.2
+double alike(double error, double there, double here) {
+  const double left = here != 0 ? std::min(std::abs(there / here), 1.0) : 1;
+  if (left == 1 || error == 0) return 1;
+  return square(left) / (square(left) + square(error) * (1 - square(left)));
 }
 
 }  // namespace
+
+void level_out(std::vector<double>& size, const std::vector<double>& of) {
+  const std::vector<double> own = size;
+  for (std::size_t i = 0; i < size.size(); ++i) {
+    double sum = 0, counted = 0;
+    for (std::size_t j = 0; j < size.size(); ++j) {
+      const double weight = alike(own[j], of[j], of[i]);
+      sum += weight * square(own[j]);
+      counted += weight;
+    }
+    size[i] = std::max(own[i], std::sqrt(sum / counted));  // its own counts whole
+  }
+}
 
 double grid_error(const std::vector<double>& samples) {
   const Estimate e = mean_estimate(samples);
   return std::hypot(e.value, e.se);
 }
 
+// Few control skins may agree with the load law by chance: no less than they leave open.
 double method_error(const std::vector<double>& samples) {
   const Estimate e = mean_estimate(samples);
-  return std::sqrt(std::max(square(e.value) - square(e.se), 0.0));
+  return std::max(std::sqrt(std::max(square(e.value) - square(e.se), 0.0)), e.se);
 }
 
 ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity, const Reading& number,

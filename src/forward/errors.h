@@ -37,6 +37,10 @@ struct ControlledChange {
 };
 ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity, const Reading& number,
                                    Change kind = Change::Relative);
+// Relative errors of one origin at each humidity, each given the larger of its own and the weighted
+// root mean square over humidity, as a difference may cross zero between two of them. of: how much
+// of the quantity there is at each. Eq. accuracy.2, accuracy.3
+void level_out(std::vector<double>& size, const std::vector<double>& of);
 // The errors that they state: the scatter between skins is added, of the load law taken off. 0 for
 // no samples.
 double grid_error(const std::vector<double>& samples);

@@ -423,6 +423,15 @@ Plan make_plan(const Scene& given, const Texture& texture, const Fidelity& fidel
   return plan;
 }
 
+Plan with_look(Plan plan, const std::string& theory) {
+  std::erase_if(plan.skipped, [](const PlanSkip& s) { return s.piece == Piece::Optics; });
+  const auto later = std::find_if(plan.steps.begin(), plan.steps.end(),
+                                  [](const PlanStep& s) { return s.piece > Piece::Optics; });
+  plan.steps.insert(
+      later, {Piece::Optics, theory, "a metric or a limit asks for the look; no part of friction"});
+  return plan;
+}
+
 std::string Plan::text() const {
   std::string out = fmt::format("patch {:.3g} x {:.3g} um, {} x {} pixels of {:.0f} nm\n",
                                 1e6 * grid.lx, 1e6 * grid.ly, grid.nx, grid.ny, 1e9 * grid.dx());

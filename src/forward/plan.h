@@ -74,5 +74,8 @@ struct Plan {
 std::string duration(double seconds);
 
 Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
+// The plan where a metric or a limit asks for the look: optics among what is modelled, by that
+// theory.
+Plan with_look(Plan plan, const std::string& theory);
 
 }  // namespace papilla::forward

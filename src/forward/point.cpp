@@ -251,6 +251,12 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
     point.samples.pressed_off = point.samples.preload * bridge.growth_off();
     point.samples.pressed_on = point.samples.preload * bridge.growth_on();
   }
+  const auto on_finger = [&](double PatchResult::*member) {
+    return patches_per_finger * mean_estimate(of_skins(patches, member)).value;
+  };
+  if (plan.field)
+    point.capillary_gain =
+        on_finger(&PatchResult::capillary_on) - on_finger(&PatchResult::capillary_off);
   if (!plan.retention) point.retention_force = {};
   const auto retained = [&](double PatchResult::*member) {
     OverSkins out{0, std::vector<double>(patches.size())};
@@ -329,8 +335,10 @@ void note_water(ResponsePoint& point, const SkinWater& water) {
   if (fitted.size() < 2) return;  // one volume at every humidity
   const double nearest = std::clamp(point.relative_humidity, fitted.front(), fitted.back());
   constexpr double kSame = 1e-9;
-  if (std::abs(point.relative_humidity - nearest) > kSame)
-    point.status.note({Trouble::WaterBeyondFit, nearest, ""});
+  if (std::abs(point.relative_humidity - nearest) > kSame) {
+    point.water_fit = {Trouble::WaterBeyondFit, nearest, ""};
+    point.status.note(point.water_fit);
+  }
 }
 
 }  // namespace papilla::forward

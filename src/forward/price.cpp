@@ -18,19 +18,6 @@ namespace {
 constexpr int kSkins = 2;
 constexpr double kControlSetups = 1.25;  // on all pixels, and on half of a side
 
-// Processor time of this thread that the work takes [s].
-template <class Work>
-double seconds_of(Work&& work) {
-  const auto now = [] {
-    timespec t{};
-    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-  };
-  const double begin = now();
-  work();
-  return now() - begin;
-}
-
 // The control skins over all skins, as plans price them.
 double control_share(const Plan& plan) {
   double controls = 0, patches = 0;
@@ -45,6 +32,17 @@ double control_share(const Plan& plan) {
 
 }  // namespace
 
+double work_seconds(const std::function<void()>& work) {
+  const auto now = [] {
+    timespec t{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  const double begin = now();
+  work();
+  return now() - begin;
+}
+
 double measured_seconds(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
   Fidelity few = fidelity;
   few.threads = 1;
@@ -53,10 +51,10 @@ double measured_seconds(const Scene& scene, const Texture& texture, const Fideli
   few.control_skins = 0;
   few.field_skins = 0;
   const auto make = [&] { const PatchSetup made(scene, texture, few); };
-  const double setup = seconds_of(make), again = seconds_of(make);  // some of it is kept
+  const double setup = work_seconds(make), again = work_seconds(make);  // some of it is kept
   const auto solved = [&](int skins) {
     few.skins = skins;
-    return seconds_of([&] { solve_patches(scene, texture, few); }) - again;
+    return work_seconds([&] { solve_patches(scene, texture, few); }) - again;
   };
   // The first skin makes tables and transforms that the others have.
   const double first = solved(1), both = solved(least);
@@ -86,7 +84,7 @@ double measured_seconds(const Scene& scene, const Texture& texture, const Fideli
   few.field_skins = 1;
   const double pixels =
       std::min(1.0, square(static_cast<double>(kMostFieldPixels) / fidelity.grid));
-  const double one = seconds_of([&] { field_ratios(once, texture, few); });
+  const double one = work_seconds([&] { field_ratios(once, texture, few); });
   return out + one + (fields - 1) * std::max(0.0, one - again * pixels);
 }
 

@@ -1,6 +1,7 @@
 // What an evaluation takes on the machine at hand, before it is begun.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "base/rooms.h"
@@ -9,6 +10,9 @@
 #include "scene/scene.h"
 
 namespace papilla::forward {
+
+// Processor time [s] that the work takes, which is done on this thread alone.
+double work_seconds(const std::function<void()>& work);
 
 // Processor time of one core [s] that `evaluate` takes: two skins at every humidity and one 3-D
 // field at one of them are solved and counted as often as the fidelity asks, the control skins by

@@ -36,8 +36,10 @@ double BeliefRuns::effective() const {
 std::vector<PointTrouble> Response::said() const {
   std::vector<PointTrouble> out;
   for (const ResponsePoint& point : points) {
-    if (const ModelStatus said = point.said(); !said.sound())
-      out.push_back({point.relative_humidity, said});
+    const ModelStatus said = point.said();
+    if (!said.sound()) out.push_back({point.relative_humidity, said});
+    if (!point.water_fit.sound() && point.water_fit != said)
+      out.push_back({point.relative_humidity, point.water_fit});
   }
   return out;
 }

@@ -81,6 +81,9 @@ struct ResponsePoint : PointQuantities {
   double peak_air_field = 0;  // [V/m]
   double source_voltage = 0;  // [V] peak: under current control what the current needs
   double retention_gain = 0;  // [N] retention force with the drive on minus that with it off
+  // [N] The same of the capillary force on the finger: load that friction under the drive has
+  // beside the pull. Eq. friction.3
+  double capillary_gain = 0;
   // Shear strength times load-carrying area [N]: contact's part of the friction is this times the
   // contact fraction (but for a friction coefficient, Eq. friction.4).
   double strength = 0;
@@ -91,6 +94,9 @@ struct ResponsePoint : PointQuantities {
   // response which the run is moved from. None: the point's own error. Eq. metrics.7
   std::optional<double> felt_error{};
   ModelStatus status;
+  // That the water volume is continued beyond its fit, which `status` says only where no other
+  // trouble came first. Sound where it is not.
+  ModelStatus water_fit;
   PatchSamples samples;
   std::vector<VoltageAnswer> voltages;  // one per target asked for
   std::optional<PullIn> pull_in;        // where it was asked for
@@ -186,7 +192,8 @@ struct Response : Resampled {
   double fft_pairs = 0;
   std::optional<Optics> appearance;  // where a metric of the texture's look is asked for
 
-  // The points that are not sound, and what people are told of each.
+  // The points that are not sound, and what people are told of each; also of water beyond its fit
+  // where another trouble is said.
   std::vector<PointTrouble> troubles() const;
   std::vector<PointTrouble> said() const;
 };

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
 #include "base/check.h"
+#include "base/text.h"
 
 namespace papilla::forward {
 
@@ -51,7 +55,7 @@ std::string text(const ModelStatus& status) {
           100 * status.number);
     case Trouble::WaterBeyondFit:
       return fmt::format(
-          "water beyond its fit: the volumes of the finger were fitted up to {:.0f} % RH on this "
+          "water beyond its fit: the volumes of the finger were fitted up to {:.6g} % RH on this "
           "side and are continued from there (finger.water.relative_humidity)",
           100 * status.number);
     case Trouble::Breakdown:
@@ -70,11 +74,40 @@ std::string text(const ModelStatus& status) {
   return {};
 }
 
+int humidity_decimals(std::vector<double> humidities) {
+  constexpr double kSame = 1e-9;  // as `note_water` has it
+  constexpr int kMost = 7;        // per cent to 1e-9
+  std::sort(humidities.begin(), humidities.end());
+  const auto alike = [&](int decimals) {
+    for (std::size_t i = 1; i < humidities.size(); ++i) {
+      const double a = humidities[i - 1], b = humidities[i];
+      if (b - a > kSame && fixed(100 * a, decimals) == fixed(100 * b, decimals)) return true;
+    }
+    return false;
+  };
+  int decimals = 0;
+  while (decimals < kMost && alike(decimals)) ++decimals;
+  return decimals;
+}
+
 std::string text(const std::vector<PointTrouble>& troubles) {
-  std::string out;
+  // A humidity reads unlike the one that its water was fitted at.
+  std::vector<double> humidities;
   for (const PointTrouble& t : troubles) {
-    out += fmt::format("{}{:.0f} % RH: {}", out.empty() ? "" : "; ", 100 * t.relative_humidity,
-                       text(t.status));
+    humidities.push_back(t.relative_humidity);
+    if (t.status.trouble == Trouble::WaterBeyondFit) humidities.push_back(t.status.number);
+  }
+  const int decimals = humidity_decimals(humidities);
+  std::string out;
+  std::set<std::string> told;
+  for (const PointTrouble& first : troubles) {
+    const std::string said = text(first.status);
+    if (!told.insert(said).second) continue;
+    std::vector<std::string> at;
+    for (const PointTrouble& t : troubles) {
+      if (text(t.status) == said) at.push_back(fixed(100 * t.relative_humidity, decimals));
+    }
+    out += fmt::format("{}{} % RH: {}", out.empty() ? "" : "; ", join_names(at), said);
   }
   return out;
 }

@@ -58,8 +58,11 @@ struct PointTrouble {
 
   bool operator==(const PointTrouble&) const = default;
 };
-// "15 % RH: flooded: ...; 75 % RH: pull-in: ..."; empty for none.
+// "15, 35 % RH: flooded: ...; 75 % RH: pull-in: ...": each trouble once, with its humidities; empty
+// for none.
 std::string text(const std::vector<PointTrouble>& troubles);
+// Decimals of humidities as per cent: none, or as few as unlike ones read unlike with.
+int humidity_decimals(std::vector<double> humidities);
 
 // How a search for the voltage of a modulation ended: `voltage_for`.
 enum class VoltageEnd {

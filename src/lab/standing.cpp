@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numeric>
 
 #include "base/constants.h"
 #include "base/text.h"
@@ -18,6 +19,11 @@ namespace papilla::lab {
 namespace {
 
 constexpr double kLow = 0.025, kHigh = 0.975;  // of a 95 % interval
+
+double weighted_mean(const std::vector<double>& values, const std::vector<double>& weights) {
+  return std::inner_product(values.begin(), values.end(), weights.begin(), 0.0) /
+         std::accumulate(weights.begin(), weights.end(), 0.0);
+}
 
 void set_members(const Belief& belief, Ensemble& e) {
   for (const BeliefMember& m : belief.members) {
@@ -171,7 +177,8 @@ void decide(Standing& s) {
     const auto interval = [&](const std::vector<double>& values) {
       return Standing::Interval{weighted_quantile(values, after.weights, kLow),
                                 weighted_quantile(values, after.weights, 0.5),
-                                weighted_quantile(values, after.weights, kHigh)};
+                                weighted_quantile(values, after.weights, kHigh),
+                                weighted_mean(values, after.weights)};
     };
     s.worth.push_back(interval(of));
     s.behind.push_back(interval(behind));

@@ -39,11 +39,15 @@ struct Standing {
   double unanswered = 0;            // share of belief, after the readings, of the others
   std::vector<Prospect> prospects;  // of the choices; empty: nothing is decided
   std::size_t best = 0;             // of the choices
-  double best_worth = 0;            // on average over belief
-  // 95 % interval of the worth of each choice, and of how much better the best is than it.
+  double best_worth = 0;            // what the best at each member is worth, on average over belief
+  // Over belief: the worth of each choice, and how much better the best is than it. The mean of a
+  // worth and its median are two numbers where belief is skewed: differences of means are regrets.
   struct Interval {
-    double low = 0, middle = 0, high = 0;
-    Interval times(double sign) const { return sign < 0 ? Interval{-high, -middle, -low} : *this; }
+    double low = 0, median = 0, high = 0;  // 95 % between low and high
+    double mean = 0;
+    Interval times(double sign) const {
+      return sign < 0 ? Interval{-high, -median, -low, -mean} : *this;
+    }
   };
   std::vector<Interval> worth, behind;
   std::vector<double> weights, p_hypothesis;

@@ -54,6 +54,7 @@ Optics mean_look(const std::vector<Optics>& regions) {
   const double share = 1 / static_cast<double>(regions.size());
   for (const Optics& region : regions) {
     if (region.refused()) return region;
+    if (out.warning.empty()) out.warning = region.warning;
     for (double Look::*number : kLookNumbers) out.*number += share * region.*number;
   }
   return out;
@@ -76,9 +77,24 @@ Candidate::Candidate(const Regions& regions, FingerState state, const RankOption
           "view.panel.subpixel_height");
     }
   }
+  if (looked_at(options)) {
+    for (const Design& region : regions) {
+      Texture texture = region.texture;
+      random_ = rearrange(texture, 0) || random_;
+    }
+  }
   fidelity_.threads = options.threads;
   // A region that met no skin yet would be in no number.
   fidelity_.skins = std::max(options.batch, static_cast<int>(regions.size()));
+}
+
+int Candidate::tried() const { return options_.felt() ? skins_ : static_cast<int>(looks_.size()); }
+
+std::string Candidate::look_warning() const {
+  for (const Optics& look : looks_) {
+    if (!look.warning.empty()) return look.warning;
+  }
+  return {};
 }
 
 // A look for every skin: the next arrangements where something is random.
@@ -86,12 +102,7 @@ void Candidate::look_on() {
   if (!looked_at(options_)) return;
   std::vector<std::vector<Optics>> next;
   const auto count = static_cast<int>(looks_.size());
-  bool random = false;
-  for (const Design& region : regions_) {
-    Texture texture = region.texture;
-    random = rearrange(texture, 0) || random;
-  }
-  const int wanted = random ? skins() : 1;
+  const int wanted = random_ ? skins() : 1;
   next.resize(static_cast<std::size_t>(std::max(0, wanted - count)));
   parallel_for(
       static_cast<int>(next.size()),
@@ -121,21 +132,22 @@ void Candidate::extend() {
       out.push_back(value(c, response, looks_.empty() ? nullptr : &looks_.front()));
     return out;
   };
-  const std::vector<double> all = values();
-  pseudo_.assign(all.size(), std::vector<double>(static_cast<std::size_t>(n)));
+  values_ = values();
+  pseudo_.assign(values_.size(), std::vector<double>(static_cast<std::size_t>(n)));
   const std::vector<std::vector<ResponsePoint>> without = std::move(response.without);
   response.without.clear();
   for (int k = 0; k < n; ++k) {
     if (options_.felt()) response.points = without[static_cast<std::size_t>(k)];
     const std::vector<double> others = values();
-    for (std::size_t c = 0; c < all.size(); ++c) {
+    for (std::size_t c = 0; c < values_.size(); ++c) {
       const bool seen = options_.criteria[c].info().appearance;
       pseudo_[c][static_cast<std::size_t>(k)] =
           seen ? value(options_.criteria[c], response,
                        &looks_[static_cast<std::size_t>(k) % looks_.size()])
-               : n * all[c] - (n - 1) * others[c];
+               : n * values_[c] - (n - 1) * others[c];
     }
   }
+  move_values();
 }
 
 std::vector<double> Candidate::member_weights() const {
@@ -157,7 +169,6 @@ void Candidate::step() {
     solve(move, few, patches, known);
     return Resampled(respond(scene, few, patches));
   };
-  Response runs;
   if (!believed) {
     const auto end = [&](std::size_t direction, bool up) {
       return moved([&](Scene& scene) {
@@ -166,27 +177,41 @@ void Candidate::step() {
       });
     };
     for (std::size_t k = 0; k < finger_steps(scene_.finger).size(); ++k)
-      runs.parameters.steps.push_back({end(k, true), end(k, false)});
+      moved_.parameters.steps.push_back({end(k, true), end(k, false)});
   } else {
     const Belief belief = belief_of(scene_.finger);
-    runs.belief.own = moved([](Scene&) {});
+    moved_.belief.own = moved([](Scene&) {});
     for (const BeliefMember& member : belief.members) {
-      runs.belief.members.push_back({member.weight, member.hypothesis, moved([&](Scene& scene) {
-                                       MemberScene at =
-                                           with_member(belief, member, scene.finger, scene.model);
-                                       scene.finger = std::move(at.finger);
-                                       scene.model = at.model;
-                                     })});
+      moved_.belief.members.push_back({member.weight, member.hypothesis, moved([&](Scene& scene) {
+                                         MemberScene at =
+                                             with_member(belief, member, scene.finger, scene.model);
+                                         scene.finger = std::move(at.finger);
+                                         scene.model = at.model;
+                                       })});
     }
   }
+  move_values();
+}
+
+// Members move the value on all skins that were met, as they move that of an evaluation; the few
+// skins and pixels that they are run on have another value. Eq. accuracy.15
+void Candidate::move_values() {
+  steps_.clear();
+  if (moved_.parameters.steps.empty() && moved_.belief.members.empty()) return;  // not solved
   Response there;
   there.driven = scene_.drive.driven();
-  for (const Criterion& c : options_.criteria) {
-    const auto samples = model_samples(runs, [&](const std::vector<ResponsePoint>& points) {
+  for (std::size_t k = 0; k < options_.criteria.size(); ++k) {
+    const Criterion& c = options_.criteria[k];
+    const Number number = [&](const std::vector<ResponsePoint>& points) {
       there.points = points;
       return std::optional(value(c, there, looks_.empty() ? nullptr : &looks_.front()));
-    });
-    steps_.push_back(*samples);
+    };
+    if (moved_.belief.members.empty()) {
+      steps_.push_back(*step_samples(moved_.parameters.steps, number));
+    } else {
+      const bool sign_kept = keeps_sign(c.expression.summary, c.expression.metric);
+      steps_.push_back(belief_values(moved_.belief, number, values_[k], sign_kept)->moves);
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "base/rooms.h"
@@ -16,18 +17,26 @@ class Candidate {
   Candidate(const Regions& regions, FingerState state, const RankOptions& options);
 
   int skins() const { return skins_; }
+  // What was solved or seen for them: skins; of what is looked at alone the arrangements, one of a
+  // surface that is not random.
+  int tried() const;
+  // Whether more skins may tell more of it: it is felt, or its arrangements differ.
+  bool scatters() const { return random_ || options_.felt(); }
   // Solves a batch more: the next skins of the common sequence, shared out over the regions. Throws
   // InputError for a criterion that is not defined here.
   void extend();
   // A sample per skin of each criterion: jackknife pseudo-values, Eq. ranking.2
   const std::vector<double>& samples(std::size_t criterion) const { return pseudo_[criterion]; }
 
-  // What each member of the finger's belief, or without one each step of its parameters, does to
-  // each criterion. Eq. ranking.5, ranking.8
+  // Solves what each member of the finger's belief, or without one each step of its parameters,
+  // does to each criterion, from its value on the skins met so far. Eq. ranking.5, ranking.8
   void step();
   const StepSamples& steps(std::size_t criterion) const { return steps_[criterion]; }
   std::vector<double> member_weights() const;    // of belief; empty: the finger has none
   int batch() const { return fidelity_.skins; }  // skins of a step
+  // How far its look can be trusted, for people: of the first arrangement that says so; "": it can,
+  // or nothing is looked at.
+  std::string look_warning() const;
 
  private:
   // What is measured once of each region, since it is the same on all skins.
@@ -39,6 +48,7 @@ class Candidate {
              std::vector<RegionLaws>& known) const;
   double value(const Criterion& c, Response& response, const Optics* look) const;
   void look_on();
+  void move_values();
 
   const Regions& regions_;
   const Design& design_;  // the first region: what all share
@@ -49,10 +59,13 @@ class Candidate {
   // Where a criterion asks for it: mean over the regions, one per skin of a surface that is random,
   // each of another arrangement; else one. Eq. ranking.7
   std::vector<Optics> looks_;
-  PatchSet patches_;  // of a candidate that is looked at alone, none
+  bool random_ = false;  // another arrangement of it has another look
+  PatchSet patches_;     // of a candidate that is looked at alone, none
   int skins_ = 0;
   std::vector<RegionLaws> known_;
+  std::vector<double> values_;               // [criterion] on all skins that it met
   std::vector<std::vector<double>> pseudo_;  // [criterion][skin]
+  Response moved_;                           // its runs of belief or of the steps; no points
   std::vector<StepSamples> steps_;           // one per criterion
 };
 

@@ -11,6 +11,8 @@
 
 namespace papilla::rank {
 
+inline constexpr int kMostSkins = 100000;
+
 // One criterion: a metric over humidity and which direction is better.
 struct Criterion {
   MetricExpression expression;
@@ -33,7 +35,7 @@ struct RankOptions {
   std::vector<double> weights;
   std::vector<FingerState> states;
   int batch = 6;       // skins per step
-  int max_skins = 96;  // per candidate and state
+  int max_skins = 96;  // per candidate and state; a batch to kMostSkins
   int threads = 0;
   // Also what the finger's fitted numbers leave open, Eq. ranking.5; parameters_unknown() is then
   // "".

@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "design/scans.h"
 #include "estimate/belief.h"
+#include "forward/plan.h"
 #include "geometry/measured_map.h"
 #include "numerics/statistics.h"
 #include "rank/candidate.h"
@@ -31,11 +32,12 @@ class StateRanker {
 
   // Everyone gets a batch; then only neighbours in an order whose difference is open.
   StateRanking run() {
-    for (Candidate& c : candidates_) c.extend();
+    const double seconds = first_batches();
     if (options_.moves_finger()) step();
     for (std::ptrdiff_t said = 0;;) {
       score();
       const std::vector<bool> open = open_candidates();
+      if (said == 0 && !options_.felt()) say_price(open, seconds);
       if (!extend(open)) break;
       const auto still = std::count(open.begin(), open.end(), true);
       if (still != said)  // a batch is quick: only what is new
@@ -56,24 +58,75 @@ class StateRanker {
     std::vector<std::size_t> order;
   };
 
+  // Of the clock [s], for each skin or arrangement of those that more of them may tell of.
+  double first_batches() {
+    double seconds = 0;
+    int tried = 0;
+    for (Candidate& c : candidates_) {
+      const auto begin = std::chrono::steady_clock::now();
+      c.extend();
+      if (!c.scatters()) continue;
+      seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      tried += c.tried();
+    }
+    return tried > 0 ? seconds / tried : 0;
+  }
+
+  // Arrangements of a film of particles take a second each: what the open ones may take, where that
+  // is long.
+  void say_price(const std::vector<bool>& open, double seconds) const {
+    constexpr double kLong = 5;  // [s]
+    int more = 0;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      if (open[i] && candidates_[i].scatters()) more += options_.max_skins - candidates_[i].tried();
+    }
+    if (more * seconds > kLong)
+      note(fmt::format(
+          "up to {} arrangements more where the order is open (--max-skins {}): {} each, {} "
+          "at most",
+          more, options_.max_skins, duration(seconds), duration(more * seconds)));
+  }
+
   // The difference of two that is open is over the skins that both have, so the one with more of
   // them waits.
   std::vector<bool> open_candidates() const {
     std::vector<bool> open(candidates_.size(), false);
-    for (const OpenPair& pair : open_pairs()) {
+    for (const CandidatePair& pair : open_pairs()) {
       const int a = candidates_[pair.first].skins(), b = candidates_[pair.second].skins();
       if (a <= b) open[pair.first] = true;
       if (b <= a) open[pair.second] = true;
     }
+    // What is said of one of two that are equal holds of the other, which so meets the same skins.
+    const std::vector<bool> by_itself = open;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      for (std::size_t j = 0; by_itself[i] && j < open.size(); ++j) {
+        if (j != i && candidates_[j].skins() <= candidates_[i].skins() && equal(boards_, i, j))
+          open[j] = true;
+      }
+    }
     return open;
   }
 
-  std::vector<OpenPair> open_pairs() const {
-    std::vector<OpenPair> out;
+  static bool equal(const std::vector<Board>& boards, std::size_t i, std::size_t j) {
+    return std::all_of(boards.begin(), boards.end(),
+                       [&](const Board& board) { return board.scores.equal(i, j); });
+  }
+
+  // What more skins may tell apart.
+  std::vector<CandidatePair> open_pairs() const {
+    return neighbours([](const Scores& scores, std::size_t a, std::size_t b) {
+      return !scores.decided(a, b) && !scores.equal(a, b);
+    });
+  }
+
+  // Neighbours in the orders of all boards of which that holds.
+  template <class Holds>
+  std::vector<CandidatePair> neighbours(Holds&& holds) const {
+    std::vector<CandidatePair> out;
     for (std::size_t k = 0; k < boards_.size(); ++k) {
       const std::vector<std::size_t>& order = boards_[k].order;
       for (std::size_t i = 0; i + 1 < order.size(); ++i) {
-        if (!boards_[k].scores.decided(order[i], order[i + 1]))
+        if (holds(boards_[k].scores, order[i], order[i + 1]))
           out.push_back({order[i], order[i + 1], k});
       }
     }
@@ -198,11 +251,13 @@ class StateRanker {
     out.state = state_;
     int most = 0;
     for (const Candidate& c : candidates_) {
-      out.skins += c.skins();
-      most = std::max(most, c.skins());
+      out.skins += c.tried();
+      most = std::max(most, c.tried());
     }
-    out.equal_skins = most * static_cast<int>(candidates_.size());
+    for (const Candidate& c : candidates_) out.equal_skins += c.scatters() ? most : c.tried();
     out.open = open_pairs();
+    out.equal = neighbours(
+        [](const Scores& scores, std::size_t a, std::size_t b) { return scores.equal(a, b); });
     const std::vector<Board> boards = criteria_boards();
     std::vector<RankedCandidate> all;
     for (std::size_t i = 0; i < candidates_.size(); ++i) all.push_back(candidate(i, boards));
@@ -221,7 +276,8 @@ class StateRanker {
   RankedCandidate candidate(std::size_t i, const std::vector<Board>& boards) const {
     RankedCandidate r;
     r.index = i;
-    r.skins = candidates_[i].skins();
+    r.skins = candidates_[i].tried();
+    r.look_warning = candidates_[i].look_warning();
     for (std::size_t j = 0; j < candidates_.size(); ++j) {
       bool ahead = false, behind = false;
       for (const Board& board : boards) {
@@ -230,10 +286,11 @@ class StateRanker {
         ahead = ahead || d.low > 0;
         behind = behind || d.high < 0;
       }
-      r.over.push_back(ahead && behind ? Relation::TradeOff
-                       : ahead         ? Relation::Better
-                       : behind        ? Relation::Worse
-                                       : Relation::Open);
+      r.over.push_back(ahead && behind                 ? Relation::TradeOff
+                       : ahead                         ? Relation::Better
+                       : behind                        ? Relation::Worse
+                       : i != j && equal(boards, i, j) ? Relation::Equal
+                                                       : Relation::Open);
     }
     for (std::size_t c = 0; c < options_.criteria.size(); ++c) {
       std::vector<std::vector<double>> samples;
@@ -304,7 +361,9 @@ const Pin* pin_among(const std::vector<Regions>& candidates) {
 }
 
 // What touches the candidates, each once: "finger clean", the name of a pin.
-std::string touching_of(const std::vector<Regions>& candidates, FingerState state) {
+std::string touching_of(const std::vector<Regions>& candidates, FingerState state,
+                        const RankOptions& options) {
+  if (!options.felt()) return "seen, not felt";
   std::vector<std::string> names;
   for (const Regions& regions : candidates) {
     for (const Design& d : regions) {
@@ -417,8 +476,31 @@ std::vector<std::string> scans_behind(const std::vector<Regions>& candidates) {
   return out;
 }
 
+// Of the candidates in messages: as they are called, or by their titles.
+std::vector<std::string> names_of(const std::vector<Regions>& candidates,
+                                  const RankOptions& options) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    out.push_back(i < options.names.size() ? options.names[i] : candidates[i].front().title);
+  return out;
+}
+
+// How far looks can be trusted, as their theories say it. A look is the same in every state of the
+// finger.
+std::vector<std::string> notes_of_looks(const std::vector<StateRanking>& states,
+                                        const std::vector<std::string>& names) {
+  std::vector<std::string> out(names.size());
+  for (const RankedCandidate& r : states.front().candidates) {
+    if (!r.look_warning.empty())
+      out[r.index] = fmt::format("look of {}: {}", names[r.index], r.look_warning);
+  }
+  out.erase(std::remove(out.begin(), out.end(), ""), out.end());
+  return out;
+}
+
 // Surfaces without a shear strength of their own all have the finger's on glass.
 std::vector<std::string> notes_of(const std::vector<Regions>& candidates,
+                                  const std::vector<std::string>& names,
                                   const RankOptions& options) {
   const bool rubs =
       std::any_of(options.criteria.begin(), options.criteria.end(), [](const auto& c) {
@@ -437,7 +519,7 @@ std::vector<std::string> notes_of(const std::vector<Regions>& candidates,
   std::vector<std::string> without;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (!std::all_of(candidates[i].begin(), candidates[i].end(), with_its_own))
-      without.push_back(i < options.names.size() ? options.names[i] : candidates[i].front().title);
+      without.push_back(names[i]);
   }
   if (!rubs || without.empty()) return {};
   if (without.size() == candidates.size()) {
@@ -501,7 +583,8 @@ Ranking ranking_of(const std::vector<Regions>& named, const RankOptions& options
   for (const Regions& regions : candidates) out.titles.push_back(regions.front().title);
   out.scans = scans_behind(named);
   out.conditions = condition_differences(candidates, options);
-  out.notes = notes_of(candidates, options);
+  const std::vector<std::string> names = names_of(candidates, options);
+  out.notes = notes_of(candidates, names, options);
   for (std::string& note : notes_of_maps(candidates)) out.notes.push_back(std::move(note));
   const Pin* pin = pin_among(candidates);
   if (const std::string unknown = parameters_unknown(candidates);
@@ -520,9 +603,10 @@ Ranking ranking_of(const std::vector<Regions>& named, const RankOptions& options
                     pin->name));
   for (FingerState state : options.states) {
     out.states.push_back(StateRanker(candidates, state, options).run());
-    out.states.back().touching = touching_of(candidates, state);
+    out.states.back().touching = touching_of(candidates, state, options);
     out.skins += out.states.back().skins;
   }
+  for (std::string& note : notes_of_looks(out.states, names)) out.notes.push_back(std::move(note));
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return out;
 }

@@ -18,6 +18,7 @@ enum class Relation {
   Better,    // ahead in one criterion at least, behind in none, as far as intervals tell
   Worse,     // the other way round
   TradeOff,  // ahead in one, behind in another
+  Equal,     // the same in every criterion on every skin that both have met
   Open,      // no difference is told from none
 };
 
@@ -29,7 +30,8 @@ struct RankedCandidate {
   std::vector<Interval> metrics;  // one per criterion, in its unit
   std::vector<double> p_best_by;  // one per criterion: probability of the best value of all
   std::vector<Relation> over;     // of each design as given; Open for itself
-  int skins = 0;
+  int skins = 0;                  // of what is looked at alone, arrangements seen
+  std::string look_warning;       // how far its look can be trusted; "": it can, or there is none
   // Where there is one score:
   bool tied_with_next = false;
   Interval score;          // Eq. ranking.1; higher is better
@@ -39,19 +41,22 @@ struct RankedCandidate {
   double p_ahead = 0;      // probability of being ahead of the next one, Eq. ranking.4
 };
 
-// Two candidates whose order is open in a criterion, or in the score, although they met all skins.
-struct OpenPair {
+// Two neighbours in the order by a criterion, or by the score.
+struct CandidatePair {
   std::size_t first = 0, second = 0;  // into the designs as given
   std::size_t criterion = 0;          // 0 where there is one score
 };
 
 struct StateRanking {
   FingerState state = FingerState::Clean;
-  std::string touching;                     // for people: "finger clean", or the pin's name
+  // For people: "finger clean", the pin's name, or that nothing is felt.
+  std::string touching;
   std::vector<RankedCandidate> candidates;  // best first
-  std::vector<OpenPair> open;  // neighbours; empty: the order is known, in every criterion
-  int skins = 0;               // solved
-  int equal_skins = 0;         // what everyone as often as the neediest candidate would have taken
+  // Their order is open although they met all skins; empty: the order is known, in every criterion.
+  std::vector<CandidatePair> open;
+  int skins = 0;        // solved, or arrangements seen
+  int equal_skins = 0;  // what everyone as often as the neediest candidate would have taken
+  std::vector<CandidatePair> equal{};  // no skin tells them apart, so that none were added for them
 };
 
 struct Ranking {

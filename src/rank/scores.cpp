@@ -93,6 +93,14 @@ bool Scores::decided(std::size_t a, std::size_t b) const {
   return d.low > 0 || d.high < 0;
 }
 
+bool Scores::equal(std::size_t a, std::size_t b) const {
+  const auto nothing = [](const std::vector<double>& samples) {
+    return std::all_of(samples.begin(), samples.end(), [](double v) { return v == 0; });
+  };
+  const StepSamples moves = step_difference(a, b);
+  return nothing(minus(skins[a], skins[b])) && std::all_of(moves.begin(), moves.end(), nothing);
+}
+
 // Member by member, each with what its own move adds to the lead. Eq. ranking.8
 double Scores::probability_over_members(std::size_t a, std::size_t b) const {
   const std::vector<double> paired = minus(skins[a], skins[b]);

@@ -38,6 +38,8 @@ struct Scores {
   // Score of a minus b over the skins that both have, and over the steps of the finger.
   Interval difference(std::size_t a, std::size_t b) const;
   bool decided(std::size_t a, std::size_t b) const;  // the interval of the difference leaves out 0
+  // No skin that both have met, and no step, tells them apart: more of them would tell nothing.
+  bool equal(std::size_t a, std::size_t b) const;
   // Probability that a is ahead of b: Student's error of the paired difference. Eq. ranking.4
   double probability_ahead(std::size_t a, std::size_t b) const;
   // Probability of each to have the highest score: scores of Student's distribution with the

@@ -101,17 +101,20 @@ std::string summary_section(const Calibration& c, const CalibrationResult& r) {
   out += fmt::format(
       "Skins {} to {} at level {}{}.\n", c.sampling.first_skin,
       c.sampling.first_skin + c.sampling.skins - 1, c.sampling.level,
-      c.data.empty() || c.check.level == c.sampling.level
+      c.data.empty()
           ? ""
-          : fmt::format("; frictions corrected to level {} on the same skins", c.check.level));
-  // Eq. calibration.5 has no covariance of the rows by the skins that they share.
-  constexpr int kFewSkins = 12;
-  if (c.sampling.skins < kFewSkins)
+          : fmt::format(
+                "; frictions times {:.3f} to {:.3f}, which level {} says over it on the same "
+                "skins (Eq. calibration.6)",
+                r.least_factor, r.largest_factor, c.check.level));
+  // So few know badly what rows of a table have in common (Eq. calibration.12), and nothing is
+  // known of what claims have.
+  const int few_skins = c.fit.empty() ? 6 : 12;
+  if (c.sampling.skins < few_skins)
     out += fmt::format(
-        "All residuals meet these skins, and what they leave open counts as each one's own: of "
-        "fewer than {} the parameters may be off by more than their intervals say "
-        "(`[sampling] skins`).\n",
-        kFewSkins);
+        "All residuals meet these skins: of fewer than {} the parameters may be off by more than "
+        "their intervals say (`[sampling] skins`).\n",
+        few_skins);
   if (!c.data_notes.empty())
     out += fmt::format("Of the table of friction: {}.\n", join_names(c.data_notes, "; "));
   return out;
@@ -217,7 +220,8 @@ std::string residuals_section(const Calibration& c, const CalibrationResult& r) 
   }
   return out +
          "\nMiss: after less data (beyond its nearer end, of a band), over the root of the squares "
-         "of sd and sampling." +
+         "of sd and sampling, which counts for more where few skins know what rows have in common "
+         "(Eq. calibration.12)." +
          (c.data.empty()
               ? ""
               : " Frictions after are corrected to the finer level at the fitted finger; "
@@ -309,6 +313,7 @@ Json residuals_json(const CalibrationResult& r) {
                     {"high", json_number(row.high)},
                     {"sd", row.sd},
                     {"sampling_sd", row.sampling_sd},
+                    {"deviation", row.deviation},
                     {"before", row.before},
                     {"after", row.after},
                     {"residual", row.miss}});

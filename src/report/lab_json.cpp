@@ -40,7 +40,8 @@ LabJson standing_json(Lab& lab) {
                        {"p_best", json_number(s.prospects[i].p_best)},
                        {"regret", json_number(s.prospects[i].regret)},
                        {"p_every_limit", json_number(s.prospects[i].p_limits)},
-                       {"worth", json_number(worth.middle)},
+                       {"worth", json_number(worth.median)},
+                       {"worth_mean", json_number(worth.mean)},
                        {"worth_low", json_number(worth.low)},
                        {"worth_high", json_number(worth.high)}});
   }

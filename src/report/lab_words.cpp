@@ -67,13 +67,14 @@ std::string choices_table(const Lab& lab, const Standing& s) {
   const std::string unit = shown.unit.empty() ? "" : " [" + shown.unit + "]";
   const bool limited = std::any_of(s.prospects.begin(), s.prospects.end(),
                                    [](const Prospect& p) { return p.p_limits < 1 - 1e-9; });
-  std::vector<std::string> head{"design", "p(best)", "expected regret", "worth" + unit + ", 95 %",
-                                "behind the best" + unit + ", 95 %"};
+  std::vector<std::string> head{"design", "p(best)", "expected regret",
+                                "worth" + unit + ", median (95 %)",
+                                "behind the best" + unit + ", median (95 %)"};
   if (limited) head.push_back(of_run(lab) ? "p(every limit)" : "p(has a value)");
   std::string out = markdown_head(head);
   for (std::size_t i = 0; i < s.prospects.size(); ++i) {
     const auto band = [&](const Standing::Interval& v) {
-      return fmt::format("{} ({} to {})", significant(shown.scale * v.middle, 3),
+      return fmt::format("{} ({} to {})", significant(shown.scale * v.median, 3),
                          significant(shown.scale * v.low, 3), significant(shown.scale * v.high, 3));
     };
     std::vector<std::string> row{choice_name(lab, s, i), lab_percent(s.prospects[i].p_best),

@@ -89,6 +89,8 @@ std::string relation_text(Relation relation) {
       return "worse";
     case Relation::TradeOff:
       return "trade-off";
+    case Relation::Equal:
+      return "equal";
     case Relation::Open:
       break;
   }
@@ -128,20 +130,40 @@ int skins_of(const StateRanking& state, std::size_t candidate) {
   return 0;
 }
 
+// "fine and hard", of several criteria "fine and hard in mean(haze):low".
+std::string pair_text(const CandidatePair& pair, const std::vector<std::string>& names,
+                      const RankOptions& options) {
+  const std::string both = fmt::format("{} and {}", names[pair.first], names[pair.second]);
+  return options.scored() ? both
+                          : fmt::format("{} in {}", both, options.criteria[pair.criterion].text());
+}
+
+// Pairs that nothing tells apart; "" where there are none.
+std::string equal_text(const std::vector<std::string>& names, const RankOptions& options,
+                       const StateRanking& state) {
+  if (state.equal.empty()) return {};
+  std::vector<std::string> pairs;
+  for (const CandidatePair& pair : state.equal) pairs.push_back(pair_text(pair, names, options));
+  return fmt::format("the same on all {}, so that more would not tell them apart: {}", met(options),
+                     join_names(pairs, "; "));
+}
+
 // Whether more skins would say more, in words.
 std::string end_text(const std::vector<std::string>& names, const RankOptions& options,
                      const StateRanking& state) {
-  if (state.open.empty())
-    return options.scored() ? "the order is known" : "the order is known in every criterion";
+  const std::string equal = equal_text(names, options, state);
+  if (state.open.empty()) {
+    const std::string known =
+        options.scored() ? "the order is known" : "the order is known in every criterion";
+    return equal.empty() ? known : known + "; " + equal;
+  }
   // More skins would tell those apart that had as many as they may; what is left open of the others
   // is not the skins'.
   std::vector<std::string> spent, unknown;
-  for (const OpenPair& pair : state.open) {
-    std::string both = fmt::format("{} and {}", names[pair.first], names[pair.second]);
-    if (!options.scored()) both += fmt::format(" in {}", options.criteria[pair.criterion].text());
+  for (const CandidatePair& pair : state.open) {
     const int skins = std::min(skins_of(state, pair.first), skins_of(state, pair.second));
     (options.moves_finger() && skins < options.max_skins ? unknown : spent)
-        .push_back(std::move(both));
+        .push_back(pair_text(pair, names, options));
   }
   std::string out;
   if (!spent.empty())
@@ -153,7 +175,7 @@ std::string end_text(const std::vector<std::string>& names, const RankOptions& o
         "{}more skins would not settle what is not known of finger and model, which leaves open: "
         "{}",
         out.empty() ? "" : "\n", join_names(unknown, "; "));
-  return out;
+  return equal.empty() ? out : out + "\n" + equal;
 }
 
 std::string state_table(const std::vector<std::string>& names, const RankOptions& options,
@@ -210,15 +232,20 @@ Json candidate_json(const std::string& name, const std::string& title, const Ran
 
 Json state_json(const std::vector<std::string>& names, const RankOptions& options,
                 const Ranking& ranking, const StateRanking& state) {
-  Json candidates = Json::array(), open = Json::array();
+  Json candidates = Json::array();
   for (const RankedCandidate& r : state.candidates)
     candidates.push_back(candidate_json(names[r.index], ranking.titles[r.index], options, r));
-  for (const OpenPair& pair : state.open)
-    open.push_back({{"designs", {names[pair.first], names[pair.second]}},
-                    {"by", options.scored() ? "score" : options.criteria[pair.criterion].text()}});
+  const auto pairs = [&](const std::vector<CandidatePair>& of) {
+    Json out = Json::array();
+    for (const CandidatePair& pair : of)
+      out.push_back({{"designs", {names[pair.first], names[pair.second]}},
+                     {"by", options.scored() ? "score" : options.criteria[pair.criterion].text()}});
+    return out;
+  };
   return {{"state", state_name(state.state)},
           {"candidates", candidates},
-          {"open", open},
+          {"open", pairs(state.open)},
+          {"equal", pairs(state.equal)},
           {"end", end_text(names, options, state)},
           {"skins", state.skins},
           {"equal_skins", state.equal_skins}};
@@ -269,26 +296,36 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
   else
     out +=
         "no weights (--weights), so no single order: rank 1 is beaten by nobody, rank 2 by one. "
-        "Better: ahead in a criterion and behind in none, as far as the intervals tell; open: no "
-        "difference is told from none\n";
+        "Better: ahead in a criterion and behind in none, as far as the intervals tell; equal: the "
+        "same in every criterion; open: no difference is told from none\n";
   for (const std::string& note : ranking.notes) out += note + "\n";
   if (options.felt() && !options.parameters)
     out += "what the fit of the finger leaves open is in no interval and no probability\n";
-  int fewest = std::numeric_limits<int>::max();
+  int fewest = std::numeric_limits<int>::max();  // of those that have more than one look
+  bool several = false;
   for (const StateRanking& state : ranking.states) {
-    for (const RankedCandidate& r : state.candidates) fewest = std::min(fewest, r.skins);
+    for (const RankedCandidate& r : state.candidates) {
+      if (!options.felt() && r.skins == 1) continue;
+      several = true;
+      fewest = std::min(fewest, r.skins);
+    }
   }
   const std::string seconds =
       ranking.seconds ? fmt::format(", {:.1f} s", *ranking.seconds) : std::string();
   const char* bars =
       options.scored() ? "± and [ ] are 95 % intervals over " : "± are 95 % intervals over ";
   const char* tie = options.scored() ? "; = marks a tie with the next" : "";
-  if (!options.felt())
+  if (!options.felt()) {
+    const std::string over = several ? fmt::format(
+                                           "{}arrangements of what is random ({} of each at "
+                                           "least); of any other surface there is one, and no ±",
+                                           bars, fewest)
+                                     : "no surface is random: there is one look of each, and no ±";
     return out + fmt::format(
                      "what is ranked is seen and not felt: neither the finger nor belief about it "
-                     "is in it. {}arrangements of rough surfaces ({} of each at least); an array "
-                     "has one, and no ±{}. {} arrangements in all{}\n",
-                     bars, fewest, tie, ranking.skins, seconds);
+                     "is in it. {}{}. {} arrangements in all{}\n",
+                     over, tie, ranking.skins, seconds);
+  }
   const char* over = ranking.members > 0      ? "skins and belief"
                      : ranking.directions > 0 ? "skins and the parameters of the finger"
                                               : "skins";

@@ -293,7 +293,11 @@ std::string key_named(const std::string& name) {
 std::vector<Part> parts_of(const std::string& section) {
   if (section == "texture") return texture_reference();
   if (section == "surface") return {{"", field_rows(Surface{}, section)}};
-  if (section == "view") return {{"", field_rows(View{}, section)}};
+  if (section == "view") {
+    View with_film;  // by itself there is none
+    with_film.films.resize(1);
+    return {{"", field_rows(with_film, section)}};
+  }
   if (section == "finger") return {{"", field_rows(Finger{}, section)}};
   if (section == "counterface") return {{"", field_rows(Counterface{}, section)}};
   if (section == "environment") return {{"", field_rows(Environment{}, section)}};

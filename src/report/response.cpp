@@ -80,8 +80,33 @@ std::string beside_target(const Response& response) {
   return out;
 }
 
+// So many digits behind the point, or as many more as show the first one of the error or three of
+// the value, what of both takes fewer; no more for what is zero but for rounding.
+int digits_shown(double value, double error, int digits) {
+  constexpr int kMost = 9;
+  const auto shows = [](double number, int significant) {
+    return number > 0 && std::isfinite(number)
+               ? significant - 1 - static_cast<int>(std::floor(std::log10(number)))
+               : kMost + 1;
+  };
+  const int wanted = std::min(shows(error, 1), shows(std::abs(value), 3));
+  return wanted > kMost ? digits : std::max(digits, wanted);
+}
+
+std::string with_error(double value, double error, double scale, int digits) {
+  const int shown = digits_shown(value * scale, error * scale, digits);
+  return fmt::format("{} ±{:.{}f}", fixed(value * scale, shown), error * scale, shown);
+}
+
 std::string with_error(const Measured& m, double scale, int digits) {
-  return fmt::format("{} ±{:.{}f}", fixed(m.value * scale, digits), m.se() * scale, digits);
+  return with_error(m.value, m.se(), scale, digits);
+}
+
+// As per cent, unlike what other humidities of the response read.
+std::string humidity_text(const ResponsePoint& point, const Response& response) {
+  std::vector<double> all;
+  for (const ResponsePoint& p : response.points) all.push_back(p.relative_humidity);
+  return fixed(100 * point.relative_humidity, humidity_decimals(std::move(all)));
 }
 
 // The table over humidity.
@@ -96,13 +121,31 @@ std::string humidity_table(const Response& response) {
     };
     const bool off = p.knows_undriven(), on = response.driven && p.knows_driven();
     out += fmt::format(
-        "{:>5.0f}% {:>9.0f} {:>16} {:>16} {:>15} {:>14} {:>14} {:>14} {:>9.1f} {:>9.0f}\n",
-        100 * p.relative_humidity, 1e-3 * p.patch_pressure, shown(off, p.friction_off, 1e3, 1),
+        "{:>5}% {:>9.0f} {:>16} {:>16} {:>15} {:>14} {:>14} {:>14} {:>9.1f} {:>9.0f}\n",
+        humidity_text(p, response), 1e-3 * p.patch_pressure, shown(off, p.friction_off, 1e3, 1),
         shown(on, p.friction_on, 1e3, 1), shown(on, p.modulation, 1, 3),
         shown(off, p.area_fraction_off, 100, 3), with_error(p.capillary_force, 1e3, 1),
         shown(on, p.electrostatic_force, 1e3, 1), p.bridges.value, 1e9 * p.mean_gap.value);
   }
   return out;
+}
+
+// Load that F_on has beside the pull: from the columns of the table alone it would not follow. Eq.
+// friction.3, friction.4
+std::string capillary_gain_line(const Response& response) {
+  constexpr double kCounts = 0.2;  // of the pull
+  std::vector<std::string> gains;
+  for (const ResponsePoint& p : response.points) {
+    const double gain = 1e3 * p.capillary_gain;  // [mN]
+    if (p.knows_driven() && std::abs(gain) > kCounts * 1e3 * p.electrostatic_force.value)
+      gains.push_back(fmt::format("{}{} mN at {} % RH", gain > 0 ? "+" : "",
+                                  fixed(gain, digits_shown(gain, 0, 1)),
+                                  humidity_text(p, response)));
+  }
+  if (gains.empty()) return {};
+  return "F_on follows the pull and the capillary force under the drive, which differs from that "
+         "without it by " +
+         join_names(gains) + "\n";
 }
 
 // What no ± holds: choices of the model, each as far as the plan expects it to move the numbers.
@@ -199,16 +242,16 @@ std::string field_lines(const Response& response) {
   for (const ResponsePoint& p : response.points) {
     if (!p.pull_in) continue;
     const Measured& m = p.pull_in->margin;
-    const double percent = 100 * p.relative_humidity;
+    const std::string percent = humidity_text(p, response);
     if (m.value >= kFarthestPullIn) {
-      out += fmt::format("pull-in at {:.0f} % RH: beyond {:g} times this voltage\n", percent,
+      out += fmt::format("pull-in at {} % RH: beyond {:g} times this voltage\n", percent,
                          kFarthestPullIn);
     } else if (m.value == 0) {
-      out += fmt::format("pull-in at {:.0f} % RH: water alone closes the gap\n", percent);
+      out += fmt::format("pull-in at {} % RH: water alone closes the gap\n", percent);
     } else {
-      out += fmt::format(
-          "pull-in at {:.0f} % RH: {} at {:.3g} ± {:.2g} times this voltage\n", percent,
-          p.pull_in->folds > 0 ? "the gap jumps shut" : "the gap has closed", m.value, 2 * m.se());
+      out += fmt::format("pull-in at {} % RH: {} at {:.3g} ± {:.2g} times this voltage\n", percent,
+                         p.pull_in->folds > 0 ? "the gap jumps shut" : "the gap has closed",
+                         m.value, 2 * m.se());
     }
   }
   const bool physical = knows_driven(response);
@@ -230,9 +273,9 @@ std::string source_line(const Response& response) {
   const auto [least, most] =
       std::minmax_element(response.points.begin(), response.points.end(), of);
   if (response.points.empty() || least->source_voltage == most->source_voltage) return {};
-  return fmt::format("the current takes {:.0f} V at {:.0f} % RH to {:.0f} V at {:.0f} %\n",
-                     least->source_voltage, 100 * least->relative_humidity, most->source_voltage,
-                     100 * most->relative_humidity);
+  return fmt::format("the current takes {:.0f} V at {} % RH to {:.0f} V at {} %\n",
+                     least->source_voltage, humidity_text(*least, response), most->source_voltage,
+                     humidity_text(*most, response));
 }
 
 std::string undriven_lines(const Response& response) {
@@ -242,7 +285,7 @@ std::string undriven_lines(const Response& response) {
     return out + "friction: no number over humidity, see the notes below\n";
   if (const auto friction = summarise(Summary::Mean, kFriction, response))
     out += fmt::format(
-        "mean friction {:.1f} ±{:.1f} mN{}; error: {}\n", 1e3 * friction->value, 1e3 * friction->se,
+        "mean friction {} mN{}; error: {}\n", with_error(friction->value, friction->se, 1e3, 1),
         friction->parts.model
             ? fmt::format(" numerical ±{:.1f} mN model", 1e3 * *friction->parts.model)
             : "",
@@ -267,7 +310,7 @@ std::string voltage_lines(const Response& response) {
   std::string out;
   for (const ResponsePoint& p : response.points) {
     for (const VoltageAnswer& v : p.voltages) {
-      out += fmt::format("modulation {:.3g} at {:.0f} % RH: ", v.target, 100 * p.relative_humidity);
+      out += fmt::format("modulation {:.3g} at {} % RH: ", v.target, humidity_text(p, response));
       out += v.reached() ? with_error(v.amplitude, 1, 1) +
                                " V (±: " + voltage_parts(v.amplitude.parts) + ")\n"
              : v.limit > 0 ? fmt::format("{} first (modulation {:.3g})\n", text(v), v.modulation)
@@ -305,7 +348,7 @@ std::string belief_table(const Response& response) {
   std::string out = fmt::format("{:>6}", "RH");
   for (const BeliefColumn& c : kBeliefColumns) {
     if (response.driven || !c.driven)
-      out += fmt::format(" {:>12} {:>12} {:>23}", c.head, "± numerical", "± model [95 %]");
+      out += fmt::format(" {:>12} {:>12} {:>30}", c.head, "± numerical", "± model; median [95 %]");
   }
   out += '\n';
   const auto row = [&](const std::string& name, auto&& value, auto&& members) {
@@ -315,11 +358,11 @@ std::string belief_table(const Response& response) {
       const auto v = value(c);
       const auto over = members(c);
       const auto text = [&](double x) { return fixed(x * c.scale, c.digits); };
-      out +=
-          fmt::format(" {:>12} {:>12} {:>23}", v ? text(v->first) : "-", v ? text(v->second) : "-",
-                      over ? fmt::format("{} [{}, {}]", text(over->deviation()),
-                                         text(over->quantile(0.025)), text(over->quantile(0.975)))
-                           : "-");
+      out += fmt::format(
+          " {:>12} {:>12} {:>30}", v ? text(v->first) : "-", v ? text(v->second) : "-",
+          over ? fmt::format("{}; {} [{}, {}]", text(over->deviation()), text(over->quantile(0.5)),
+                             text(over->quantile(0.025)), text(over->quantile(0.975)))
+               : "-");
     }
     out += '\n';
   };
@@ -369,8 +412,9 @@ std::string belief_lines(const Response& response) {
   return belief_table(response) +
          fmt::format(
              "± model: standard deviation over {} members of belief (as good as {:.1f} equal "
-             "ones; {}), {} skins, {} pixels, in brackets 95 % of their weight; common to all "
-             "designs, in a difference its own part counts{}\n",
+             "ones; {}) about their own mean, {} skins, {} pixels; behind it their median and, in "
+             "brackets, 95 % of their weight; the value is by the numbers of the fit and may lie "
+             "off that median; common to all designs, in a difference its own part counts{}\n",
              b.members.size(), b.effective(), hypotheses_text(b), b.skins, b.grid,
              b.troubles.empty() ? "" : "; a member is not sound: " + text(b.troubles));
 }
@@ -431,9 +475,9 @@ std::string modulation_sparkline(const Response& response) {
 
 std::string response_table(const Response& response) {
   std::string out = humidity_table(response);
-  out += response.driven
-             ? modulation_lines(response) + source_line(response) + field_lines(response)
-             : undriven_lines(response);
+  out += response.driven ? modulation_lines(response) + capillary_gain_line(response) +
+                               source_line(response) + field_lines(response)
+                         : undriven_lines(response);
   if (response.appearance) out += appearance_line(*response.appearance);
   out += voltage_lines(response);
   if (response.accuracy.target > 0) out += target_lines(response);

@@ -31,6 +31,7 @@ Json with_members(Json number, const std::optional<BeliefValues>& over) {
   if (!over) return number;
   Json values = Json::array();
   for (const double v : over->values) values.push_back(json_number(v));
+  number["model_median"] = json_number(over->quantile(0.5));
   number["model_interval"] = {json_number(over->quantile(0.025)),
                               json_number(over->quantile(0.975))};
   number["members"] = std::move(values);
@@ -133,6 +134,8 @@ Json point_json(const Response& response, std::size_t index) {
   point["over_limit_area"] = json_number(p.over_limit_area);
   point["over_limit_share"] = json_number(p.over_limit_share);
   point["source_voltage"] = driven ? json_number(p.source_voltage) : Json(nullptr);
+  point["capillary_gain"] =
+      exists(api::FingerDrive::On, p, driven) ? json_number(p.capillary_gain) : Json(nullptr);
   point["peak_air_field"] = json_number(p.peak_air_field);
   point["peak_oxide_field"] = json_number(p.peak_oxide_field);
   point["field_correction"] = json_number(p.field_correction);

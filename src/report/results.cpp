@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/writer.h"
+#include "design/title.h"
 #include "report/decision.h"
 #include "report/export.h"
 #include "report/grounds.h"
@@ -196,7 +197,7 @@ class Writer {
   }
 
   std::string metrics(const FinalDesign& d) const {
-    Json out{{"schema", 1}, {"title", d.design.title}};
+    Json out{{"schema", 1}, {"title", titled(d.design).title}};
     Json variables = Json::object();
     const std::vector<double> values = f_.problem.space().value(d.unit);
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -253,6 +254,12 @@ class Writer {
     return out.dump(1) + "\n";
   }
 
+  // What the run changed of the study's own design stands in the title.
+  Design titled(Design design) const {
+    design.title = title_as_changed(f_.study.design, design);
+    return design;
+  }
+
   // Among the finalists; beyond them: a surface that is none.
   std::size_t place_of(const FinalDesign& d) const {
     const auto& all = f_.result.finalists;
@@ -265,11 +272,11 @@ class Writer {
   void write_design_folder(const FinalDesign& d, const std::string& name, const Design& made,
                            const std::string& made_file) const {
     const Folder folder = folder_.made_below(name);
-    folder.write("design.toml", to_toml(d.design));
-    folder.write(made_file, to_toml(made));
+    folder.write("design.toml", to_toml(titled(d.design)));
+    folder.write(made_file, to_toml(titled(made)));
     folder.write("metrics.json", metrics(d));
     Study study;
-    study.design = made;
+    study.design = titled(made);
     study.constraints = f_.study.constraints;
     ExportOptions options;
     options.formats = {"exr", "gsf", "png"};

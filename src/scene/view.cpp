@@ -4,12 +4,13 @@ namespace papilla::scene {
 
 void fields(FieldVisitor& v, ViewFilm& s) {
   v.text({"material", "name"}, s.material);
-  v.number({"thickness", "nm", 0, 1e5, "thickness"}, s.thickness);
-  v.number({"refractive_index", "", 1, 5, "refractive index", Source::Estimate,
-            "indium tin oxide at 550 nm"},
+  v.number({"thickness", "nm", 0, 1e5, "thickness", Source::Choice, "", Presence::Required},
+           s.thickness);
+  v.number({"refractive_index", "", 1, 5, "refractive index n; indium tin oxide at 550 nm: 1.9",
+            Source::Choice, "", Presence::Required},
            s.refractive_index);
-  v.number({"extinction", "", 0, 5, "extinction coefficient k of n + i k", Source::Estimate,
-            "indium tin oxide at 550 nm"},
+  v.number({"extinction", "", 0, 5,
+            "extinction coefficient k of n + i k: 0 is clear, indium tin oxide at 550 nm has 0.01"},
            s.extinction);
 }
 
@@ -42,16 +43,20 @@ void fields(FieldVisitor& v, View& s) {
       s.angles);
   v.number({"fill_index", "", 1, 5,
             "refractive index of what fills the texture when it is looked at: 1 air, 1.33 water, "
-            "the glass's own: a matched fill; friction is that of the open texture"},
+            "the glass's own: a matched fill; its outer face is flat, in air; friction is that of "
+            "the open texture"},
            s.fill_index);
   v.number({"displacement", "nm", 0, 1e3,
-            "standard deviation of a feature's place, each coordinate (haze below the wavelength)",
+            "standard deviation of a feature's place, each coordinate: haze of lattices below the "
+            "periods of screens",
             Source::Estimate, "electron-beam and imprint masters: 2 to 10 nm"},
            s.displacement);
-  v.number({"diameter_scatter", "%", 0, 50,
-            "standard deviation of diameters over their mean (haze below the wavelength)",
-            Source::Estimate, "electron-beam and imprint masters: 1 to 4 %"},
-           s.diameter_scatter);
+  v.number(
+      {"diameter_scatter", "%", 0, 50,
+       "standard deviation of diameters over their mean: haze of lattices below the periods of "
+       "screens",
+       Source::Estimate, "electron-beam and imprint masters: 1 to 4 %"},
+      s.diameter_scatter);
   v.number({"cone", "deg", 0.1, 45,
             "light that leaves further than this from its direction is haze; some meters and "
             "sheets take 4 deg",

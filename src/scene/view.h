@@ -11,9 +11,9 @@ namespace papilla::scene {
 
 // A flat film between the dielectric and the glass: the electrode, what matches its index.
 struct ViewFilm {
-  std::string material = "ITO";
-  double thickness = 0;  // [m]
-  double refractive_index = 1.9, extinction = 0.01;
+  std::string material;
+  double thickness = 0;                         // [m]
+  double refractive_index = 1, extinction = 0;  // n + i k; a file states n
 
   bool operator==(const ViewFilm&) const = default;
 };

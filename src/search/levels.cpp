@@ -8,6 +8,7 @@
 
 #include "design/design.h"
 #include "estimate/belief.h"
+#include "forward/appearance.h"
 #include "forward/plan.h"
 #include "forward/price.h"
 #include "search/building.h"
@@ -271,14 +272,40 @@ StudyCost study_cost(const Study& study) {
   const std::size_t looks =
       constraints.in_look().empty() ? 0 : constraints.looked_at(study.design).size();
   const auto searched = static_cast<std::size_t>(search.evaluations + search.drafts);
-  out.seconds += yield_price(study, looks, searched + out.narrowed + 1 + 2 * variables,
-                             out.finalists + 2 + kJudgedOnGrid);
+  const std::size_t drawn = searched + out.narrowed + 1 + 2 * variables;
+  out.seconds += yield_price(study, looks, drawn, out.finalists + 2 + kJudgedOnGrid);
+  if (problem.goals().looks) out.looked_at = drawn + kJudgedOnGrid;
   out.pixels = stage_fidelity(problem, Stage::Search).grid;
   out.feature = problem.smallest_feature();
   out.feature_pixels = out.feature * out.pixels / kWindow;
   const auto pixels =
       static_cast<double>(plan_at(problem, stage_fidelity(problem, Stage::Confirm)).grid.size());
   out.bytes = kBytesOfProgram + kBytesPerPixel * pixels + kept_bytes(pixels, problem.has_belief());
+  return out;
+}
+
+namespace {
+
+// The study's own design in each scenario; none where no metric and no limit asks for looks.
+std::vector<Design> own_looks(const Study& study) {
+  if (!study.is_study()) return {};
+  const StudyProblem problem(study);
+  if (!problem.goals().looks) return {};
+  return problem.constraints().looked_at(study.design);
+}
+
+}  // namespace
+
+std::string look_theory(const Study& study) {
+  const std::vector<Design> seen = own_looks(study);
+  if (seen.empty()) return {};
+  const Design& first = seen.front();
+  return optics_theory(first.texture, first.surface, first.view);
+}
+
+double look_price(const Study& study) {
+  double out = 0;
+  for (const Design& d : own_looks(study)) out += work_seconds([&] { appearance_of(d); });
   return out;
 }
 

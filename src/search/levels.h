@@ -49,12 +49,21 @@ struct StudyCost {
   double seconds = 0;
   std::size_t members = 0;                 // of belief, at each of which the finalists are judged
   double belief_seconds = 0;               // of them
+  std::size_t looked_at = 0;               // designs whose look is computed; not in `seconds`
   std::size_t plates = 0;                  // of the yield of what is built; 0: it has none
   double bytes = 0;                        // of a worker, with what it keeps
   int pixels = 0;                          // of the search, along 12 um
   double feature = 0, feature_pixels = 0;  // the smallest of the space [m]; infinite: none
 };
 StudyCost study_cost(const Study& study);
+
+// Processor time that the looks of a design take on this machine, measured on the study's own
+// design: lattices between the theories take seconds and more, all else next to nothing. The looks
+// are kept, as those of every design. In all scenarios [s]; 0: no metric and no limit asks for a
+// look.
+double look_price(const Study& study);
+// The theory of that look, or why none has it; "": nothing asks for one. Free.
+std::string look_theory(const Study& study);
 
 // What will run, for plan.txt and people.
 std::string search_plan(const StudyProblem& problem);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <optional>
+#include <stdexcept>
 
 namespace {
 
@@ -175,6 +176,12 @@ TEST(Library, WorkIsCountedAndStops) {
   options.threads = 1;
   EXPECT_THROW(papilla::evaluate(design, options), papilla::Stopped);
   EXPECT_EQ(done, 1);
+}
+
+TEST(Library, AnExceptionOfTheProgressComesBackToTheCaller) {
+  papilla::EvaluateOptions options;
+  options.progress = [](int) { throw std::domain_error("mine"); };
+  EXPECT_THROW(papilla::evaluate(papilla::Design::parse(kHoles), options), std::domain_error);
 }
 
 TEST(Library, FullContactOfAFlatPlaneCarriesItsLoad) {

@@ -117,6 +117,17 @@ TEST(ResponseOfTheLibrary, HasALevelOrATarget) {
   EXPECT_EQ(said(options_of("", -0.01)), "target: expected a share from 0 to 1");
   EXPECT_EQ(said(options_of("", 1)), "target: expected a share from 0 to 1");
   EXPECT_EQ(said(options_of("", NAN)), "target: expected a share from 0 to 1");
+  EXPECT_EQ(said(options_of("draft", 0.1)),
+            "target: give a level or a target, not both: a target finds its own level");
+  papilla::EvaluateOptions options;
+  options.threads = -1;
+  EXPECT_EQ(said(options), "threads: expected 0, all processors, to 4096, got -1");
+  options.threads = 0;
+  for (const double modulation :
+       {-0.1, 0.0, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
+    options.voltage_for = {0.3, modulation};
+    EXPECT_EQ(said(options).substr(0, 46), "voltage_for: expected modulations above 0, 0.3");
+  }
   // A level takes the place of the design's own target.
   const papilla::Design aimed =
       design.with({{"accuracy.level", "design"}, {"accuracy.target", "50 %"}});
@@ -470,6 +481,10 @@ TEST(StudyOfTheLibrary, SaysWhatMayChangeAndWhatIsWanted) {
   EXPECT_NEAR(made.number("texture.diameter"), 2e-6, 1e-15);
   EXPECT_EQ(refusal([] { papilla::Study::read("m3_samples/a3h350.toml"); }),
             "expected a study: it has no [design_space]");
+  EXPECT_EQ(refusal([] { papilla::Study::read(""); }),
+            "file: expected the name of a file, got an empty text");
+  const papilla::Design changed = study.design({420e-9, 3e-6});
+  EXPECT_TRUE(changed.title().ends_with("; texture.depth 420 nm")) << changed.title();
 }
 
 // What the file says is the study's own, where its space leaves that out too; the rest is of the
@@ -576,6 +591,35 @@ TEST(SearchOfTheLibrary, MinimisesWhatItsStudyMinimises) {
     search.tell(judgements);
   }
   EXPECT_NEAR(found, 320e-9, 10e-9);
+}
+
+TEST(SearchOfTheLibrary, IsToldNumbersBeforeItAsksAgain) {
+  const papilla::Study study = papilla::Study::parse(
+      std::string(kStudy) + "[search]\nmethod = \"nsga2\"\nevaluations = 30\n");
+  papilla::Search search(study);
+  const std::size_t asked = search.ask().size();
+  ASSERT_GT(asked, 0u);
+  EXPECT_EQ(refusal([&] { search.ask(); }), "ask: tell() first what the " + std::to_string(asked) +
+                                                " designs of the last ask() are worth");
+  papilla::Judgement good;
+  good.ok = true, good.values = {0.5, 0.1}, good.violations = {-0.1};
+  const auto said = [&](const papilla::Judgement& last) {
+    std::vector<papilla::Judgement> all(asked, good);
+    all.back() = last;
+    return refusal([&] { search.tell(all); });
+  };
+  papilla::Judgement unknown = good, short_of_one = good, unlimited = good;
+  unknown.values[0] = NAN;
+  short_of_one.values.pop_back();
+  unlimited.violations[0] = INFINITY;
+  for (const papilla::Judgement& bad : {unknown, short_of_one, unlimited}) {
+    EXPECT_EQ(
+        said(bad),
+        "judgements: expected 2 finite values and 1 violations of a design that is ok; of one "
+        "that could not be judged say ok = false");
+  }
+  EXPECT_EQ(said({false, "too deep", {}, {}, {}}), "");
+  EXPECT_EQ(refusal([&] { search.ask(); }), "") << "after it was told";
 }
 
 TEST(FilesOfTheLibrary, AreWrittenAndJudgedAgain) {
@@ -694,6 +738,45 @@ TEST(RankingOfTheLibrary, IsItsDocumentInNumbers) {
               papilla::api::rank({flat, angled}, options);
             }).substr(0, 24),
             "states: expected some of");
+}
+
+TEST(RankingOfTheLibrary, RefusesWhatFitsNoDesigns) {
+  const papilla::Design flat =
+      papilla::Design::parse("schema_version = 1\nbase = \"m3_samples/flat.toml\"\n");
+  const auto said = [&](const papilla::RankOptions& options, std::size_t count = 2) {
+    return refusal([&] { papilla::api::rank(std::vector<papilla::Design>(count, flat), options); });
+  };
+  papilla::RankOptions options;
+  EXPECT_EQ(said(options, 1), "name two designs at least");
+  options.names = {"one"};
+  EXPECT_EQ(said(options), "names: expected one for each of 2 designs, got 1");
+  options.names = {"one", "two"}, options.max_skins = 0;
+  EXPECT_EQ(said(options),
+            "max_skins: expected 6, the first step of every design, to 100000, got 0");
+  options.max_skins = 6, options.threads = -1;
+  EXPECT_EQ(said(options), "threads: expected 0, all processors, to 4096, got -1");
+}
+
+// Two designs of one title would stand in messages and tables as one.
+TEST(RankingOfTheLibrary, NumbersTitlesThatAreAlike) {
+  const papilla::Design flat =
+      papilla::Design::parse("schema_version = 1\nbase = \"m3_samples/flat.toml\"\n");
+  const papilla::Design dry = flat.with("environment.relative_humidity", "[\"30 %\"]");
+  ASSERT_EQ(dry.title(), flat.title());
+  const auto said = [](const papilla::Design& first, const papilla::Design& second) {
+    return refusal([&] { papilla::api::rank({first, second}); });
+  };
+  const std::string alike = said(flat, dry), untitled = said(flat, dry.with("title", "\"\""));
+  EXPECT_NE(alike.find(" in " + flat.title() + " (1), "), std::string::npos) << alike;
+  EXPECT_NE(alike.find(" in " + flat.title() + " (2)\n"), std::string::npos) << alike;
+  EXPECT_NE(untitled.find(" in " + flat.title() + ", "), std::string::npos) << untitled;
+  EXPECT_NE(untitled.find(" in design 2\n"), std::string::npos) << untitled;
+  // The first number is another's title.
+  const std::string taken = refusal([&] {
+    papilla::api::rank({flat.with("title", "\"" + flat.title() + " (1)\""), flat, dry});
+  });
+  EXPECT_NE(taken.find(flat.title() + " (1)"), std::string::npos) << taken;
+  EXPECT_NE(taken.find(flat.title() + " (3)"), std::string::npos) << taken;
 }
 
 TEST(UnitsOfTheLibrary, AreReadAndWritten) {

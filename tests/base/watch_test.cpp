@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "base/parallel.h"
@@ -50,6 +52,52 @@ TEST(Watch, EndsItsWorkOnceThatIsWished) {
     EXPECT_NO_THROW(Watch::look());
   }
   EXPECT_NO_THROW(Watch::look());
+}
+
+// Of several threads too, where OpenMP would end the process.
+TEST(Watch, GivesTheExceptionOfItsProgressBackAndEndsItsWork) {
+  for (const int threads : {1, 2}) {
+    std::atomic<int> worked = 0;
+    int told = 0;
+    Watch watch(
+        [&](int done) {
+          told = done;
+          if (done == 2) throw std::runtime_error("mine");
+        },
+        nullptr);
+    const auto said = [&] {
+      try {
+        parallel_for(
+            1000, [&](int) { ++worked; }, threads);
+      } catch (const std::runtime_error& error) {
+        return std::string(error.what());
+      }
+      return std::string();
+    };
+    EXPECT_EQ(said(), "mine") << threads;
+    EXPECT_EQ(told, 2);
+    EXPECT_LE(worked, 2 + threads - 1) << "the running pieces end, and no other begins";
+    EXPECT_EQ(said(), "mine") << "a loop after it does not begin";
+  }
+}
+
+// As a handler of Ctrl-C may do: what it throws is what comes out.
+TEST(Watch, GivesTheExceptionOfAProgressThatAlsoStopsIt) {
+  std::atomic<bool> stop = false;
+  Watch watch(
+      [&](int) {
+        stop = true;
+        throw std::runtime_error("mine");
+      },
+      &stop);
+  std::string said;
+  try {
+    parallel_for(
+        100, [&](int) { Watch::look(); }, 2);
+  } catch (const std::runtime_error& error) {
+    said = error.what();
+  }
+  EXPECT_EQ(said, "mine");
 }
 
 }  // namespace

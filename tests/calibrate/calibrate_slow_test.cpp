@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/random.h"
+#include "calibrate/residuals.h"
 #include "design/design.h"
 #include "forward/forward.h"
 #include "report/fit.h"
@@ -90,14 +92,16 @@ TEST_F(Planted, PlantedParametersAreFoundWithinTheirIntervals) {
   EXPECT_TRUE(r.fit.converged) << r.fit.message;
   EXPECT_GT(r.chi2_before, 100);
   // Not zero as at the planted values (below): the factor that areas are corrected by is followed
-  // to first order. 0.16 % of friction, root mean square.
-  EXPECT_LT(r.fit.chi2, 0.1);
+  // to first order, and droplets that merge or not hold a descent up. A fifth of a standard
+  // deviation of a row, root mean square.
+  EXPECT_LT(r.fit.chi2, 0.5);
+  for (const FitRow& row : r.rows) EXPECT_LT(std::abs(row.miss), 0.4) << row.what;
   const std::vector<double> planted{0.009, 7.5e6, 2.3};
   for (std::size_t i = 0; i < planted.size(); ++i) {
     const ParameterFit& p = r.fit.parameters[i];
     EXPECT_LT(p.low, planted[i]) << p.name;
     EXPECT_GT(p.high, planted[i]) << p.name;
-    EXPECT_NEAR(p.value / planted[i], 1, 0.01) << p.name;
+    EXPECT_NEAR(p.value / planted[i], 1, 0.02) << p.name;
   }
   const auto json = nlohmann::json::parse(calibration_json(calibration, r));
   EXPECT_EQ(json["parameters"].size(), 3u);
@@ -147,6 +151,55 @@ skins = 4
   EXPECT_GT(r.fit.directions[0].singular_value, 3);
   EXPECT_LT(r.fit.directions[1].singular_value, 1);
   EXPECT_GT(r.fit.correlation[1], 0.7);
+}
+
+// Frictions to half a percent, fitted on six skins each time: what those skins are off by is common
+// to all rows. By errors of each row's own ten of the sixteen intervals hold the strength.
+TEST_F(Planted, IsHeldByIntervalsOnOtherSkins) {
+  constexpr int kFits = 16, kSkins = 6;
+  const std::string flat = find_design("m3_samples/flat.toml");
+  Calibration c;
+  c.finger = read_finger(find_design("fingers/reference.toml"));
+  c.check = {.level = "search", .skins = kSkins, .first_skin = 0, .grid = 32};
+  for (const double humidity : {0.15, 0.45, 0.75})
+    c.data.push_back({flat, humidity, 150, 5e3, 0.2, 0.1, 0.1, 0.1, 0.1, 2});
+  CalibrationParameter strength{"macro.shear_strength", "MPa", {}};
+  strength.fit.name = strength.path;
+  strength.fit.start = c.finger.macro.shear_strength;
+  strength.fit.low = 0.3 * strength.fit.start;
+  strength.fit.high = 3 * strength.fit.start;
+  strength.fit.step = 0.04;
+  strength.fit.logarithmic = true;
+  c.parameters = {strength};
+  const auto on_skins = [&](int fit) {
+    c.sampling = {.level = "search", .skins = kSkins, .first_skin = fit * kSkins, .grid = 32};
+    c.check.first_skin = c.sampling.first_skin;
+  };
+  std::vector<double> truth(6);
+  for (int fit = 0; fit < kFits; ++fit) {
+    on_skins(fit);
+    const std::vector<Estimate> rows =
+        Residuals(c, 1).model(c, std::vector<double>{strength.fit.start});
+    for (std::size_t i = 0; i < rows.size(); ++i) truth[i] += 1e-3 * rows[i].value / kFits;
+  }
+  int held = 0;
+  for (int fit = 0; fit < kFits; ++fit) {
+    on_skins(fit);
+    RandomStream random(1, "readings", static_cast<std::uint64_t>(fit));
+    for (std::size_t i = 0; i < c.data.size(); ++i) {
+      FrictionDatum& d = c.data[i];
+      d.off_sd = 0.005 * truth[2 * i];
+      d.on_sd = 0.005 * truth[2 * i + 1];
+      d.off = truth[2 * i] + d.off_sd * random.normal();
+      d.on = truth[2 * i + 1] + d.on_sd * random.normal();
+    }
+    CalibrationOptions options;
+    options.threads = 1;
+    options.check = false;
+    const ParameterFit found = fit_finger(c, options).fit.parameters.front();
+    held += found.low <= strength.fit.start && strength.fit.start <= found.high;
+  }
+  EXPECT_GE(held, 13);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -15,6 +16,7 @@
 #include "calibrate/calibrate.h"
 #include "calibrate/residuals.h"
 #include "forward/forward.h"
+#include "numerics/statistics.h"
 #include "published/targets.h"
 #include "tests/calibrate/files.h"
 
@@ -90,6 +92,68 @@ TEST(ResidualsByHand, OfATableAreFrictionsInMillinewtons) {
   near(r[6], (model[6].value - 100) / (50 * std::sqrt(5.0)));
 }
 
+// Frictions that meet the same skins: what each skin moves them by, of runs with and without it.
+TEST(ResidualsByHand, HaveInCommonWhatTheirSkinsLeaveOpen) {
+  Calibration c = few_pixels();
+  c.sampling.skins = 5;
+  Residuals residuals(c, 1);
+  residuals.weigh(c, {});
+  const std::vector<FitRow>& rows = residuals.rows();
+  const Fidelity fidelity = c.sampling.fidelity(1);
+  const FrictionDatum &wetter = c.data[0], &pressed = c.data[2];
+  near(rows[0].sampling_sd, 1e3 * run(wetter, asked(), fidelity).friction_off.parts.sampling);
+  ASSERT_EQ(rows[4].common.size(), 5u);
+  // Samples of friction off: what all skins but one have, taken off what all have.
+  const auto moves = [&](const FrictionDatum& d) {
+    const Design design = read_design(d.design);
+    Scene scene = scene_of(design);
+    scene.finger = asked();
+    scene.finger.load = d.load;
+    scene.finger.state = design.finger.state;
+    scene.drive.amplitude = d.amplitude;
+    scene.drive.frequency = d.frequency;
+    scene.environment.relative_humidity = {d.relative_humidity};
+    scene.environment.weights.clear();
+    const Response r = evaluate(scene, design.texture, fidelity);
+    Eigen::VectorXd out(5);
+    for (int k = 0; k < 5; ++k)
+      out(k) = r.points[0].friction_off.value -
+               r.without[static_cast<std::size_t>(k)][0].friction_off.value;
+    return Eigen::VectorXd((out.array() - out.mean()).matrix().normalized());
+  };
+  const auto common = [&](std::size_t row) {
+    return Eigen::Map<const Eigen::VectorXd>(rows[row].common.data(), 5);
+  };
+  const double share = common(0).squaredNorm();
+  EXPECT_GT(share, 0.3);
+  EXPECT_LT(share, 1);
+  for (std::size_t i = 1; i < rows.size(); ++i) near(common(i).squaredNorm(), share);
+  EXPECT_NEAR((common(4) / std::sqrt(share)).dot(moves(pressed)), 1, 0.01);
+  near(rows[0].own_deviation(),
+       std::sqrt(square(rows[0].sd) + (1 - share) * square(rows[0].sampling_sd)));
+  // The sum of squares is by the covariance of the rows as a whole.
+  const double student = student_t_quantile(0.975, 4) / normal_quantile(0.975);
+  std::vector<double> r(7), answers(7);
+  ASSERT_TRUE(residuals.residuals(c, {}, r));
+  ASSERT_TRUE(residuals.answers(c, {}, answers));
+  Eigen::MatrixXd whole(7, 7);
+  Eigen::VectorXd off(7);
+  for (std::size_t i = 0; i < 7; ++i) {
+    const auto a = static_cast<Eigen::Index>(i);
+    off(a) = answers[i] * rows[i].own_deviation();
+    for (std::size_t j = 0; j < 7; ++j)
+      whole(a, static_cast<Eigen::Index>(j)) =
+          square(student) * rows[i].sampling_sd * rows[j].sampling_sd * common(i).dot(common(j));
+    whole(a, a) += square(rows[i].own_deviation());
+  }
+  double sum = 0;
+  for (const double v : r) sum += square(v);
+  EXPECT_NEAR(sum, off.dot(whole.inverse() * off), 1e-5 * sum);
+  // What people are told of a row is by its own whole deviation.
+  const std::vector<double> misses = residuals.misses(r);
+  EXPECT_NEAR(misses[4], off(4) / std::sqrt(whole(4, 4)), 1e-5 * std::abs(misses[4]));
+}
+
 // Two states of one surface, and a friction that is known under voltage alone.
 TEST(ResidualsByHand, AreOfTheStateThatARowSays) {
   Calibration c = few_pixels();
@@ -125,9 +189,10 @@ TEST(ResidualsByHand, AreCorrectedToTheLevelOfTheCheck) {
   fine.contact_tolerance = 1e-5;
   fine.field_skins = 0;
   fine.threads = 1;
+  EXPECT_EQ(residuals.factors_between(c, {}), std::pair(1.0, 1.0));
   const double moved = residuals.correct(c, {});
   const std::vector<Estimate> after = residuals.model(c, {});
-  double largest = 0;
+  double largest = 0, least_factor = kInfinity, largest_factor = 0;
   std::size_t at = 0;
   for (const FrictionDatum& d : c.data) {
     const ResponsePoint p = run(d, asked(), fine);
@@ -135,6 +200,8 @@ TEST(ResidualsByHand, AreCorrectedToTheLevelOfTheCheck) {
       near(after[at].value, 1e3 * force.value);
       near(after[at].se / after[at].value, before[at].se / before[at].value);
       largest = std::max(largest, std::abs(after[at].value - before[at].value) / (1e3 * sd));
+      least_factor = std::min(least_factor, after[at].value / before[at].value);
+      largest_factor = std::max(largest_factor, after[at].value / before[at].value);
       ++at;
     };
     expect(p.friction_off, d.off_sd);
@@ -143,6 +210,8 @@ TEST(ResidualsByHand, AreCorrectedToTheLevelOfTheCheck) {
   EXPECT_EQ(at, 7u);
   EXPECT_GT(largest, 0.01);
   near(moved, largest);
+  near(residuals.factors_between(c, {}).first, least_factor);
+  near(residuals.factors_between(c, {}).second, largest_factor);
   EXPECT_NEAR(residuals.correct(c, {}), 0, 1e-9);  // the same again
   Calibration claims;
   claims.fit = {"M3"};

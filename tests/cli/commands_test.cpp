@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -213,6 +214,37 @@ TEST(Explain, PricesAStudyOnTheJobsThatItAllows) {
   EXPECT_NE(run.out.find(" on 1 processor as busy"), std::string::npos) << run.out;
 }
 
+// As many as are drawn: those of the search, its recommendation and two beside it in each variable,
+// and those of the fab's grid.
+TEST(Explain, OfAStudyThatAsksForLooksPricesThem) {
+  const Workplace place;
+  const Outcome run = place.run("explain " PAPILLA_DESIGNS_DIR "/transparent_glass/study.toml");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("of that the looks of 252 designs take "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("by the theory \"phase screen\")\n"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find(" for the look (--appearance: with)"), std::string::npos) << run.out;
+  const std::size_t optics = run.out.find("  optics "), skipped = run.out.find("not modelled:");
+  EXPECT_LT(optics, skipped) << run.out;
+  EXPECT_EQ(run.out.find("  optics ", skipped), std::string::npos) << run.out;
+}
+
+// Holes between the theories: the plan for programs names the Fourier modal method and does not
+// wait for it.
+TEST(Explain, OfAStudyNamesTheTheoryOfItsLook) {
+  const Workplace place;
+  const Outcome run =
+      place.run("explain " PAPILLA_DESIGNS_DIR
+                "/transparent_glass/study.toml --set 'texture.period=\"1 um\"' --set "
+                "'texture.diameter=\"0.5 um\"' --json");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err.find("timing the look"), std::string::npos) << run.err;
+  const auto plan = nlohmann::json::parse(run.out)["plan"];
+  const auto optics = std::find_if(plan["steps"].begin(), plan["steps"].end(),
+                                   [](const auto& step) { return step["piece"] == "optics"; });
+  ASSERT_NE(optics, plan["steps"].end()) << run.out;
+  EXPECT_EQ((*optics)["method"], "rigorous");
+}
+
 // Their arc meets the floor first: half-way down the holes are half as wide again.
 TEST(Explain, SaysWhatRimsLargerThanTheDepthMakeOfTheWalls) {
   const Workplace place;
@@ -299,6 +331,15 @@ TEST(Rank, RefusesADesignAgainstItselfAndARegionWithoutAName) {
 }
 
 // A file whose name holds the sign that joins regions is that file.
+// As in C++ and Python: the first step of every design.
+TEST(Rank, TakesSixSkinsAtLeast) {
+  const Workplace place;
+  const Outcome run = place.run("rank " + kSample + " other.toml --max-skins 5");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("--max-skins: Value 5 not in range 6 to 100000"), std::string::npos)
+      << run.err;
+}
+
 TEST(Rank, TakesAFileWhoseNameHoldsAPlus) {
   const Workplace place;
   for (const char* name : {"h+1.toml", "h.toml"})

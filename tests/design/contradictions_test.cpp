@@ -202,13 +202,19 @@ TEST(Contradictions, OfTheFilmAreItsOrderAndADepthThatReachesTheElectrode) {
   EXPECT_EQ(said(d),
             order(1) +
                 "surface.dielectric.3.thickness: 50 nm: the texture is cut 350 nm deep into this "
-                "planar layer and would reach its electrode; make it thicker, or the texture "
-                "shallower\n");
+                "planar layer and would reach the layer below it, and cuts through several layers "
+                "are not modelled; make it thicker, or the texture shallower\n");
   layers = {layer(400e-9, LayerProcess::Surface), layer(350e-9, LayerProcess::Surface)};
   EXPECT_EQ(said(d),
             "surface.dielectric.1.thickness: 350 nm: the texture is cut 350 nm deep into this "
+            "planar layer and would reach the layer below it, and cuts through several layers are "
+            "not modelled; make it thicker, or the texture shallower\n");
+  layers = {layer(350e-9, LayerProcess::Surface)};
+  EXPECT_EQ(said(d),
+            "surface.dielectric.0.thickness: 350 nm: the texture is cut 350 nm deep into this "
             "planar layer and would reach its electrode; make it thicker, or the texture "
             "shallower\n");
+  layers = {layer(400e-9, LayerProcess::Surface), layer(350e-9, LayerProcess::Surface)};
   layers[1].thickness = 351e-9;
   EXPECT_EQ(said(d), "");
   layers[1].thickness = 1e-9;
@@ -226,7 +232,13 @@ TEST(Contradictions, OfTheViewAndTheGridAreTheirBorders) {
   d.view.fill_index = d.surface.refractive_index = 1.5;  // a matched fill
   EXPECT_EQ(said(d), "");
   d.view.fill_index = 1.51;
-  EXPECT_EQ(said(d), "view.fill_index: expected at most surface.refractive_index\n");
+  EXPECT_EQ(said(d),
+            "view.fill_index: expected at most 1.5, the index of what the texture is cut into\n");
+  d.surface.process = FilmProcess::Planar;  // the film is cut, not the glass
+  d.surface.dielectric[0].refractive_index = 1.46;
+  d.view.fill_index = 1.48;
+  EXPECT_EQ(said(d),
+            "view.fill_index: expected at most 1.46, the index of what the texture is cut into\n");
   d = {};
   const std::string grid = "accuracy.grid: expected 0 (by level) or at least 16 pixels\n";
   for (const auto& [pixels, words] : {std::pair{0, std::string()},

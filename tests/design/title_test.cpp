@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "config/describe.h"
+
 namespace papilla::tests::title_test {
 namespace {
 
@@ -33,6 +35,9 @@ TEST(Title, NamesSectionsOfManyValues) {
   EXPECT_EQ(title_of({"texture.depth=300nm", "texture.diameter=2um", "finger.load=1N",
                       "texture.edge_radius=0nm"}),
             own_title() + "; texture changed; finger changed");
+  EXPECT_EQ(title_of({"texture={type=\"flat\"}", "surface.contact_angle=70deg", "finger.load=1N",
+                      "drive.amplitude=100V"}),
+            own_title() + "; texture changed; surface changed; finger changed; drive changed");
 }
 
 TEST(Title, SaysOfAValueThatIsSetAgainTheLastAlone) {
@@ -43,6 +48,37 @@ TEST(Title, SaysOfAValueThatIsSetAgainTheLastAlone) {
   EXPECT_EQ(title_as_set(design, {"texture.depth=250nm", "texture.period=6um",
                                   "texture.diameter=3um", "texture.edge_radius=0nm"}),
             "Holes; finger.load 1 N; texture changed");
+}
+
+TEST(Title, SaysWhatASearchChangedInFourDigits) {
+  const Design own = read_design(find_design("m3_samples/a3h600.toml"));
+  EXPECT_EQ(title_as_changed(own, own), own.title);
+  Design found = own;
+  set_number(found, "texture.depth", 345.678912e-9);
+  EXPECT_EQ(title_as_changed(own, found), own.title + "; texture.depth 345.7 nm");
+  set_number(found, "texture.depth", 600e-9 * (1 + 1e-13));  // rounding is no change
+  set_number(found, "drive.amplitude", 100);
+  EXPECT_EQ(title_as_changed(own, found), own.title + "; drive.amplitude 100 V");
+  found.title = "another";
+  EXPECT_EQ(title_as_changed(own, found), own.title + "; drive.amplitude 100 V");
+}
+
+// A surface without relief is not called by its holes alone, however much else is changed.
+TEST(Title, SaysThatTheReliefWent) {
+  const Design own = read_design(find_design("m3_samples/a3h600.toml"));
+  const Design flat =
+      read_design(find_design("m3_samples/a3h600.toml"),
+                  {"texture.type=flat", "surface.contact_angle=70deg", "drive.amplitude=100V"});
+  EXPECT_EQ(title_as_changed(own, flat),
+            own.title + "; texture flat; surface.contact_angle 70 deg; drive.amplitude 100 V");
+  Design shallow = own;
+  set_number(shallow, "texture.depth", 0);
+  EXPECT_EQ(title_as_changed(own, shallow), own.title + "; texture flat");
+  Design many = flat;
+  set_number(many, "drive.frequency", 2 * get_number(many, "drive.frequency"));
+  set_number(many, "finger.load", 2 * get_number(many, "finger.load"));
+  EXPECT_EQ(title_as_changed(own, many),
+            own.title + "; texture flat; surface changed; finger changed; drive changed");
 }
 
 TEST(Title, IsNoLongerThanTitlesAre) {

@@ -1,5 +1,6 @@
 #include "estimate/belief.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -89,6 +90,29 @@ TEST(BeliefParts, ArePricedAsTheyAreRun) {
   EXPECT_EQ(cost().runs, 2);
 }
 
+// Of 64 members three are run: sixteen times as much as four of four, or thereabouts.
+TEST(BeliefParts, TheirAnnouncedTimeCountsTheMembersThatAreNotRun) {
+  const auto belief = [](int members) {
+    std::string text = "schema_version = 1\n";
+    for (int k = 0; k < members; ++k)
+      text += fmt::format(
+          "[[member]]\nweight = {}\nset = {{ \"macro.shear_strength\" = \"{} MPa\" }}\n",
+          1.0 / members, 8 + 2.0 * k / members);
+    return write(fmt::format("members_{}.toml", members), text);
+  };
+  Design d = small_design();
+  const auto seconds = [&](const std::string& file) {
+    d.finger.belief = file;
+    return measured_belief_seconds(scene_of(d), d.texture, small_fidelity());
+  };
+  seconds(belief(4));  // tables and transforms of the first run
+  const double few = seconds(belief(4)), many = seconds(belief(64));
+  EXPECT_GT(few, 0);
+  EXPECT_GT(many, 5 * few);
+  EXPECT_LT(many, 40 * few);
+  EXPECT_EQ(seconds(""), 0);
+}
+
 TEST(BeliefParts, OfTheShearStrengthAreItsOwnAndTheModulationsNone) {
   Design d = small_design();
   d.finger.belief = shear_belief();
@@ -108,7 +132,15 @@ TEST(BeliefParts, OfTheShearStrengthAreItsOwnAndTheModulationsNone) {
     const auto over = *belief_values_at(i, kFriction, r);
     EXPECT_NEAR(over.values[0], 0.8 * p.friction_off.value, 1e-9 * p.friction_off.value);
   }
-  EXPECT_NE(response_table(r).find("± model"), std::string::npos);
+  // Whatever the value and the deviation, which is about the members' own mean, are: the median.
+  const BeliefValues friction = *belief_values_at(0, kFriction, r);
+  const std::string table = response_table(r),
+                    said =
+                        fmt::format("; {:.1f} [{:.1f}, {:.1f}]", 1e3 * friction.quantile(0.5),
+                                    1e3 * friction.quantile(0.025), 1e3 * friction.quantile(0.975));
+  EXPECT_NE(table.find("± model; median [95 %]"), std::string::npos) << table;
+  EXPECT_NE(table.find(said), std::string::npos) << said << table;
+  EXPECT_NE(response_json(r).find("\"model_median\""), std::string::npos);
   EXPECT_NE(response_json(r).find("\"effective_members\""), std::string::npos);
 }
 

@@ -85,6 +85,15 @@ TEST(Appearance, BetweenBothItIsRigorousOrRefusedWithTheBand) {
   EXPECT_NE(refusal(266e-9, view_from({0, kPi / 6})), "");  // 400 nm / (1.5 + 0.5)
   EXPECT_EQ(refusal(199e-9, view_from({0, kPi / 6})), "");
   EXPECT_NE(refusal(600e-9, view_from({0, 0.1})).find("along the normal alone"), std::string::npos);
+  // The theory has its name before anything is computed.
+  const auto theory = [&](double period, const View& view) {
+    holes.period = period;
+    return optics_theory(Texture{holes}, glass_of(1.5), view);
+  };
+  EXPECT_EQ(theory(600e-9, {}), "rigorous");
+  EXPECT_EQ(theory(266e-9, scalar), "effective medium");
+  EXPECT_EQ(theory(1441e-9, {}), "phase screen");
+  EXPECT_EQ(theory(600e-9, scalar), refusal(600e-9, scalar));
   // Films that follow a fine texture, and kinds without outlines.
   Surface coated = glass_of(1.5);
   coated.dielectric[0].refractive_index = 1.38;
@@ -167,6 +176,60 @@ TEST(Appearance, OfAMapIsThatOfItsFileAsItIs) {
   const Optics high = appearance(anew, glass_of(kIndex), view);
   EXPECT_GT(high.haze, 1.5 * low.haze);
   expect_look(high, appearance(written("other.npy", 60e-9), glass_of(kIndex), view));
+}
+
+// The haze of disorder goes on where the layer ends: 267 nm in glass of 1.5.
+TEST(Appearance, KeepsTheHazeOfDisorderAcrossTheBorderOfTheLayer) {
+  Grating lines;
+  lines.width = 130e-9, lines.depth = 100e-9, lines.wall_angle = kPi / 2, lines.edge_radius = 0;
+  View view;
+  view.displacement = 20e-9, view.diameter_scatter = 0.1;
+  const auto haze = [&](double period) {
+    lines.period = period;
+    return appearance(Texture{lines}, glass_of(1.5), view).haze;
+  };
+  const double below = haze(266e-9), above = haze(268e-9);
+  EXPECT_GT(below, 1e-3);
+  EXPECT_NEAR(above, below, 0.05 * below);
+  EXPECT_GT(haze(300e-9), 0.5 * below);
+}
+
+TEST(Appearance, SaysThatAScreenLeavesStatedDisorderOut) {
+  const HoleArray holes{.period = 6e-6, .diameter = 3e-6, .depth = 150e-9};
+  View view;
+  EXPECT_EQ(appearance(Texture{holes}, glass_of(kIndex), view).warning, "");
+  view.displacement = 20e-9;
+  EXPECT_NE(appearance(Texture{holes}, glass_of(kIndex), view)
+                .warning.find("not counted above periods of 1440 nm"),
+            std::string::npos);
+  // Less than usual asks for the perfect array, which is what it is.
+  view.displacement = 0, view.diameter_scatter = 0;
+  EXPECT_EQ(appearance(Texture{holes}, glass_of(kIndex), view).warning, "");
+}
+
+TEST(Appearance, SaysThatGradualHeightsBelowTheWavelengthAreNoLayer) {
+  Waves waves;
+  waves.period = 200e-9, waves.depth = 100e-9, waves.directions = Waves::Directions::Both;
+  EXPECT_EQ(optics_refusal(Texture{waves}, glass_of(1.5), {}),
+            "period 200 nm is below 267 nm, where holes, pillars and gratings alone are layers "
+            "(effective medium): gradual heights have no index of one layer; take 1440 nm or more "
+            "(phase screen)");
+  VGrooves grooves;
+  grooves.period = 200e-9, grooves.width = 150e-9, grooves.depth = 100e-9;
+  EXPECT_EQ(optics_refusal(Texture{grooves}, glass_of(1.5), {}), "");
+  EXPECT_NE(optics_refusal(Texture{grooves}, glass_of(1.5), view_from({0.1}))
+                .find("seen along the normal alone"),
+            std::string::npos);
+}
+
+TEST(Appearance, SaysWhichFringesAreNotFollowed) {
+  Surface hard_coat = glass_of(1.52);
+  hard_coat.process = FilmProcess::Planar;
+  hard_coat.dielectric[0].refractive_index = 1.46, hard_coat.dielectric[0].thickness = 10e-6;
+  EXPECT_EQ(appearance(Texture{}, hard_coat, {}).warning, "");
+  hard_coat.dielectric[0].thickness = 20e-6;
+  EXPECT_NE(appearance(Texture{}, hard_coat, {}).warning.find("not followed beyond 40 um"),
+            std::string::npos);
 }
 
 }  // namespace

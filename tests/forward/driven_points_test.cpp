@@ -185,10 +185,11 @@ TEST(LooksLaws, OfNoReliefIsAFlatPlate) {
   EXPECT_NEAR(bare.haze, 0, 1e-12);
   EXPECT_EQ(bare.warning, "");
   ASSERT_EQ(bare.spectrum.size(), 17u);
-  // Under 1.2 of fill: (0.3/2.7)^2 at one face, 0.04 at the other.
-  const double r = square(0.3 / 2.7);
+  // Under 1.2 of fill: (0.3/2.7)^2 at one face, 0.04 at the other, (0.2/2.2)^2 at the fill's own.
+  const double r = square(0.3 / 2.7), outer = square(0.2 / 2.2);
+  const double plate = (1 - r) * 0.96 / (1 - 0.04 * r);
   const Optics filled = appearance(Texture{}, glass_of(1.5), filled_with(1.2));
-  EXPECT_NEAR(filled.transmittance, (1 - r) * 0.96 / (1 - 0.04 * r), 1e-12);
+  EXPECT_NEAR(filled.transmittance, plate * (1 - outer) / (1 - outer * (1 - plate)), 1e-12);
   EXPECT_EQ(appearance(Texture{}, glass_of(1.5), view_from({0, 0.5, 1})).spectrum.size(), 51u);
 }
 

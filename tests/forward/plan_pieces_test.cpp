@@ -145,6 +145,19 @@ TEST(PlanPieces, OfADrivenSearchWithControls) {
   EXPECT_TRUE(plan.warnings.empty());
 }
 
+TEST(PlanPieces, OfALookThatIsAskedForHasItsTheory) {
+  const Plan without = make_plan({}, Texture{}, fidelity_level("search"));
+  const Plan with = with_look(without, "phase screen");
+  ASSERT_EQ(with.steps.size(), without.steps.size() + 1);
+  ASSERT_EQ(with.skipped.size() + 1, without.skipped.size());
+  const auto optics = std::find_if(with.steps.begin(), with.steps.end(),
+                                   [](const PlanStep& s) { return s.piece == Piece::Optics; });
+  ASSERT_NE(optics, with.steps.end());
+  EXPECT_EQ(optics->method, "phase screen");
+  EXPECT_STREQ(std::next(optics)->name(), "sampling");
+  EXPECT_EQ(with.seconds(), without.seconds());  // measured apart
+}
+
 // Two volumes and three placements are six times the water; of a gap that is full no droplet moves.
 TEST(PlanPieces, ThePriceCountsDropletsPlacementsAndVolumes) {
   Scene scene;

@@ -314,6 +314,27 @@ TEST(Point, WaterBeyondItsFitAndWaterWithoutRoomAreSaid) {
   EXPECT_TRUE(at(0.5).sound());
   before = {Trouble::Flooded, 0, ""};  // says more
   EXPECT_EQ(at(0.9), before);
+  // And hides no volume that is continued.
+  ResponsePoint flooded = c.point();
+  flooded.status = before, flooded.relative_humidity = 0.9;
+  note_water(flooded, c.scene.finger.water);
+  EXPECT_EQ(flooded.water_fit, (ModelStatus{Trouble::WaterBeyondFit, 0.75, ""}));
+}
+
+// The load of the finger under the drive is the preload, what water holds without the drive, this
+// and the pull.
+TEST(Point, TheLoadUnderTheDriveIsThatOfItsForces) {
+  Case c;
+  const ResponsePoint p = c.point();
+  const double n = c.carrying() / c.plan.grid.area();
+  EXPECT_NEAR(p.capillary_gain, n * 2e-7, 1e-12 * n * 2e-7);
+  double on = 0;
+  for (const double load : p.samples.load_on) on += n * load / 3;
+  EXPECT_NEAR(n * p.samples.preload + p.capillary_force.value + p.capillary_gain +
+                  p.electrostatic_force.value,
+              on, 1e-12 * on);
+  c.plan.field = false;
+  EXPECT_EQ(c.point().capillary_gain, 0);
 }
 
 }  // namespace

@@ -45,10 +45,32 @@ TEST(StatedErrors, TheScatterIsAddedToAStepOfTheGrid) {
   EXPECT_NEAR(grid_error(planted(0, 0.04)), 0.04, 1e-12);
 }
 
-TEST(StatedErrors, TheScatterIsTakenOffTheMethod) {
+TEST(StatedErrors, TheScatterIsTakenOffTheMethodDownToItself) {
   EXPECT_NEAR(method_error(planted(0.05, 0.03)), 0.04, 1e-12);
   EXPECT_NEAR(method_error(planted(-0.05, 0.03)), 0.04, 1e-12);
-  EXPECT_EQ(method_error(planted(0.03, 0.05)), 0);  // nothing but scatter
+  EXPECT_NEAR(method_error(planted(0.03, 0.03)), 0.03, 1e-12);
+  EXPECT_NEAR(method_error(planted(0, 0.05)), 0.05, 1e-12);  // by chance
+}
+
+std::vector<double> levelled(std::vector<double> size, const std::vector<double>& of) {
+  level_out(size, of);
+  return size;
+}
+
+// A difference that crosses zero at one humidity is as large there as at the others.
+TEST(StatedErrors, OfAHumidityWhereADifferenceVanishesAreThoseOfTheOthers) {
+  const std::vector<double> size = levelled({0, 0.05, 0.05}, {1, 0.35, 0.2});
+  EXPECT_NEAR(size[0], 0.0406, 1e-4);
+  EXPECT_EQ(size[2], 0.05);
+  EXPECT_NEAR(levelled({0.03, 0, 0.03}, {1, 1, 1})[1], 0.03 * std::sqrt(2.0 / 3), 1e-12);
+}
+
+// A pull that water all but shuts off, by errors as large as itself.
+TEST(StatedErrors, AsLargeAsTheQuantityItselfSayLittleWhereThereIsMoreOfIt) {
+  const std::vector<double> size = levelled({0.02, 1.33, 1}, {627, 190, 2.4});
+  EXPECT_NEAR(size[0], 0.302, 1e-3);
+  EXPECT_EQ(size[1], 1.33);
+  EXPECT_EQ(levelled({0.05, 0.3}, {1, 0})[0], 0.05);  // nothing is left
 }
 
 TEST(StatedErrors, PartsAddInSquaresAndTheWatersBandIsNone) {

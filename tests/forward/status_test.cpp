@@ -77,6 +77,37 @@ TEST(Status, NumbersAndReasonsAreSaidInTheirUnits) {
             "15 % RH: contact: a; 75 % RH: field: b");
 }
 
+// Humidities read unlike each other and unlike the one that the water was fitted at.
+TEST(Status, HumiditiesHaveTheDigitsThatTellThemApart) {
+  EXPECT_EQ(humidity_decimals({}), 0);
+  EXPECT_EQ(humidity_decimals({0.154, 0.75, 0.154}), 0);
+  EXPECT_EQ(humidity_decimals({0.75, 0.149, 0.15}), 1);
+  EXPECT_EQ(humidity_decimals({0.75, 0.7501}), 2);
+  EXPECT_EQ(humidity_decimals({0.75, 0.75 + 1e-12}), 0);  // one humidity
+  const std::string low =
+      text(std::vector<PointTrouble>{{0.149, {Trouble::WaterBeyondFit, 0.15, ""}}});
+  EXPECT_TRUE(low.starts_with("14.9 % RH: water beyond its fit: ")) << low;
+  EXPECT_NE(low.find("fitted up to 15 % RH"), std::string::npos) << low;
+  EXPECT_NE(text(ModelStatus{Trouble::WaterBeyondFit, 0.752, ""}).find("up to 75.2 % RH"),
+            std::string::npos);
+}
+
+TEST(Status, ATroubleIsSaidOnceWithItsHumidities) {
+  EXPECT_EQ(text(std::vector<PointTrouble>{{0.15, {Trouble::ContactUnsolved, 0, "a"}},
+                                           {0.35, {Trouble::FieldUnsolved, 0, "b"}},
+                                           {0.75, {Trouble::ContactUnsolved, 0, "a"}}}),
+            "15, 75 % RH: contact: a; 35 % RH: field: b");
+}
+
+TEST(Status, AFloodDoesNotHideWaterBeyondItsFit) {
+  Response r;
+  for (const double rh : {0.5, 0.8, 0.95}) r.points.emplace_back().relative_humidity = rh;
+  const ModelStatus beyond{Trouble::WaterBeyondFit, 0.75, ""}, flooded{Trouble::Flooded, 0, ""};
+  r.points[1].water_fit = r.points[2].water_fit = beyond;
+  r.points[1].status = beyond, r.points[2].status = flooded;
+  EXPECT_EQ(r.said(), (std::vector<PointTrouble>{{0.8, beyond}, {0.95, flooded}, {0.95, beyond}}));
+}
+
 TEST(Status, AResponseTellsItsTroublesByHumidity) {
   Response r;
   for (const double rh : {0.2, 0.4, 0.6}) r.points.emplace_back().relative_humidity = rh;

@@ -92,5 +92,34 @@ TEST(Particles, OfManySmallOnesNoTwoOverlap) {
   EXPECT_GT(worst, 1 - 1e-12);
 }
 
+// Spheres that sit deep are widest below the film, where nothing is seen of it.
+TEST(Particles, ThatSitDeepDoNotRunThroughEachOtherBelowTheFilm) {
+  ParticleFilm film = equal_spheres(0.8);
+  film.coverage = 0.3, film.clustering = 0.5;
+  const Grid grid{64, 64, 24e-6, 24e-6};
+  const std::vector<Particle> particles = place_particles(film, grid);
+  ASSERT_GT(particles.size(), 60u);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double dx = std::remainder(particles[i].x - particles[j].x, grid.lx),
+                   dy = std::remainder(particles[i].y - particles[j].y, grid.ly);
+      EXPECT_GT(std::hypot(dx, dy), (2 - 1e-9) * film.radius) << i << " " << j;
+    }
+  }
+}
+
+// Their widest circles jam: of 80 % embedded ones 1/(4 x .8 x .2) of what is seen.
+TEST(Particles, JamByTheirWidestCircles) {
+  ParticleFilm film = equal_spheres(0.8);
+  film.coverage = 0.33;
+  EXPECT_TRUE(problems(Texture{film}).empty());
+  film.coverage = 0.34;
+  const TextureProblems said = problems(Texture{film});
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said.front().second,
+            "random non-overlapping particles jam near 35.2 % where 80 % of their diameter lies "
+            "below the film; use at most 33.3 %");
+}
+
 }  // namespace
 }  // namespace papilla::tests::particles_test

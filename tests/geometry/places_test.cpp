@@ -194,7 +194,7 @@ TEST(Particles, OfAClusterTouchOneAnotherAndStayOnTheirPatch) {
       const double dx = p.x - all[j].x, dy = p.y - all[j].y;
       const double way = std::hypot(dx - grid.lx * std::round(dx / grid.lx),
                                     dy - grid.ly * std::round(dy / grid.ly));
-      nearest = std::min(nearest, way - disc(p) - disc(all[j]));
+      nearest = std::min(nearest, way - p.radius - all[j].radius);  // below the film
     }
     EXPECT_NEAR(nearest, 0, 1e-12) << i;
   }

@@ -702,12 +702,13 @@ TEST_F(LabFolder, SaysAWorthThatIsMinimisedInItsUnit) {
   write_text(folder_ + "/lab.toml", lab_file_text(lab_file));
   Lab lab(folder_, 1);
   const std::string text = lab_standing_text(lab);
-  EXPECT_NE(text.find("worth [mN], 95 %"), std::string::npos) << text;
+  EXPECT_NE(text.find("worth [mN], median (95 %)"), std::string::npos) << text;
   EXPECT_NE(text.find("53.3 (53.3 to 53.3)"), std::string::npos) << text;
   EXPECT_EQ(text.find("-0.05"), std::string::npos) << text;
   const auto standing = nlohmann::json::parse(lab_state_json(lab))["standing"];
   EXPECT_NEAR(standing["best_worth"].get<double>(), 0.0533, 1e-9);
   EXPECT_NEAR(standing["designs"][1]["worth"].get<double>(), 0.06, 1e-9);
+  EXPECT_NEAR(standing["designs"][1]["worth_mean"].get<double>(), 0.06, 1e-9);
 }
 
 // Its regrets are shares of the worth of then.

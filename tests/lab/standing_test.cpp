@@ -49,6 +49,23 @@ TEST(Standing, LeavesOutMembersAtWhichNoDesignHasAWorth) {
   EXPECT_EQ(all->weights.size(), 3u);  // they are members of belief all the same
 }
 
+// Draws of a kernel lie in pairs about its middle, so that the mean over belief is kept.
+TEST(Standing, TellsTheMeanOfAWorthFromItsMedian) {
+  const auto s = standing_by({0.6, 0.4}, {{-150, -210}, {-170, -190}});
+  ASSERT_EQ(s->worth.size(), 2u);
+  EXPECT_NEAR(s->worth[0].mean, -174, 1e-6);
+  EXPECT_NEAR(s->worth[1].mean, -178, 1e-6);
+  EXPECT_NEAR(s->behind[1].mean, 4, 1e-6);
+  const Standing::Interval shown = s->worth[0].times(-1);
+  EXPECT_EQ(shown.mean, -s->worth[0].mean);
+  EXPECT_EQ(shown.low, -s->worth[0].high);
+  EXPECT_EQ(shown.median, -s->worth[0].median);
+  // The best at each member takes less voltage than the choice, by its regret.
+  EXPECT_EQ(s->best, 0u);
+  EXPECT_GT(s->prospects[0].regret, 1);
+  EXPECT_NEAR(-s->best_worth, shown.mean - s->prospects[0].regret, 1e-6);
+}
+
 // At four equal members, of which the last two are of another hypothesis; 90 % are wanted.
 TEST(Standing, SaysWhatTellsWhetherTheChoiceKeepsItsLimits) {
   const auto by = [](const std::vector<double>& weights, const std::vector<bool>& kept) {

@@ -195,7 +195,9 @@ TEST(LatticeLook, OfADesignBetweenTheTheories) {
   HoleArray t;
   t.period = 0.7e-6, t.diameter = 0.35e-6, t.depth = 120e-9, t.wall_angle = kPi / 2,
   t.edge_radius = 0;
-  const Optics o = appearance(Texture{t}, glass_of(1.46), {});
+  View perfect;
+  perfect.displacement = perfect.diameter_scatter = 0;
+  const Optics o = appearance(Texture{t}, glass_of(1.46), perfect);
   EXPECT_EQ(o.regime, OpticsRegime::Rigorous);
   EXPECT_GT(o.haze, 0.001);
   EXPECT_LT(o.haze, 0.1);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/constants.h"
 #include "forward/appearance.h"
@@ -134,6 +135,29 @@ TEST(Sparkle, NeedsAPanel) {
               rough_sparkle(facts(Texture{t}).rough, 0.5, *meters_of(glass_of(1.5), view).panel),
               1e-12);
   EXPECT_GT(seen.sparkle, 0.005);
+}
+
+// Cut into a film of another index: the film's top and what lies below scatter light differently.
+// By one phase for both it read 6 GU less at 20 deg.
+TEST(RoughLook, OfAFilmIsThatOfASampledSurface) {
+  const std::vector<RoughScale> scales{{100e-9, 3e-6}};
+  const Heightmap map = random_surface(scales, {512, 512, 100e-6, 100e-6}, 5);
+  const Light light{{550e-9}};
+  // Surfaces of 100 um differ from each other by 0.5 and 1.2 GU at 20 deg.
+  for (const auto& [index, scatter] : {std::pair{1.46, 1.5}, {2.0, 3.0}}) {
+    OpticalMedia film{index, 1};
+    film.thickness = 1.5e-6, film.plate_index = 1.52, film.back = 1.52;
+    film.films = {{1.9, 0.01, 20e-9}};
+    const Optics closed = rough_look(scales, film, light), sampled = phase_screen(map, film, light);
+    EXPECT_NEAR(closed.gloss_20, sampled.gloss_20, scatter) << index;
+    EXPECT_NEAR(closed.gloss, sampled.gloss, 1.5) << index;
+    // No roughness is the flat film.
+    const Optics none = rough_look({{1e-12, 3e-6}}, film, light),
+                 flat =
+                     phase_screen({{8, 8, 1e-6, 1e-6}, std::vector<double>(64, 0.0)}, film, light);
+    EXPECT_NEAR(none.gloss_20, flat.gloss_20, 1e-3) << index;
+    EXPECT_NEAR(none.spectrum[0].mirror, flat.spectrum[0].mirror, 1e-6) << index;
+  }
 }
 
 }  // namespace

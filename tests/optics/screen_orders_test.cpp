@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <tuple>
 #include <vector>
 
 #include "base/constants.h"
@@ -56,7 +57,8 @@ double cone(const std::vector<Complex>& t, double wavelength, double angle) {
   return out;
 }
 
-// Both faces of a plate under the fill, mean over polarisations by Fresnel's sines and tangents.
+// Both faces of a plate under the fill, and the fill's own in air, mean over polarisations by
+// Fresnel's sines and tangents.
 double faces(double fill, double glass, double angle) {
   const double s = std::sin(angle);
   const double a = std::asin(s), f = std::asin(s / fill), g = std::asin(s / glass);
@@ -69,9 +71,12 @@ double faces(double fill, double glass, double angle) {
                   (n1 * std::cos(t2) + n2 * std::cos(t1)));
   };
   double out = 0;
-  for (const auto& [r1, r2] : {std::pair{across(fill, f, glass, g), across(1, a, glass, g)},
-                               {in(fill, f, glass, g), in(1, a, glass, g)}})
-    out += 0.5 * (1 - r1) * (1 - r2) / (1 - r1 * r2);
+  for (const auto& [r1, r2, r3] :
+       {std::tuple{across(fill, f, glass, g), across(1, a, glass, g), across(1, a, fill, f)},
+        {in(fill, f, glass, g), in(1, a, glass, g), in(1, a, fill, f)}}) {
+    const double plate = (1 - r1) * (1 - r2) / (1 - r1 * r2);
+    out += 0.5 * plate * (1 - r3) / (1 - r3 * (1 - plate));
+  }
   return out;
 }
 

@@ -76,7 +76,7 @@ TEST(PosteriorSlow, TheScoreOfAGroupLeftOutIsItsPredictiveDensity) {
   PosteriorOptions options = known(60);
   options.groups = {{0, 1}, {2, 3, 4, 5}};
   const Posterior p = sample_posterior(model.parameters, 6, model.misses(), options);
-  const LeftOut left = leave_out(p, options.groups, {0, 0});
+  const LeftOut left = leave_out(p, {0, 0});
   const Eigen::MatrixXd others = model.a.bottomRows(4), own = model.a.topRows(2);
   const Eigen::MatrixXd c =
       (others.transpose() * others + Eigen::MatrixXd::Identity(3, 3) / 4).inverse();

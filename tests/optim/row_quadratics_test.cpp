@@ -44,10 +44,7 @@ double exact(const Eigen::VectorXd& z, double factor) {
 
 double log_likelihood(const RowQuadratics& guess, const Eigen::VectorXd& z, double factor) {
   const RowQuadratics::Rows rows = guess.rows(z);
-  double out = 0;
-  for (Eigen::Index k = 0; k < rows.miss.size(); ++k)
-    out += optim::log_likelihood(rows.miss(k), rows.variance(k), factor);
-  return out;
+  return CommonErrors().terms(rows.misses(), rows.open(), factor, {}).front().log_likelihood();
 }
 
 TEST(RowQuadratics, AreTheRowsThatAreQuadratic) {

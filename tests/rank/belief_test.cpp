@@ -83,13 +83,14 @@ set = { "macro.shear_strength" = "10.8 MPa" }
   RankOptions options_;
 };
 
-// A shear strength of 9 MPa ± 20 %: every friction is moved by that, leads too.
+// A shear strength of 9 MPa ± 20 %: every friction is moved by that share of what it is on the
+// skins that it met, however the members' few skins have it. Eq. accuracy.15
 TEST_F(RankedByBelief, EveryFrictionIsMovedByTheSameShare) {
   const Ranking r = ranking_of(designs_, options_);
   EXPECT_EQ(r.members, 2);
   EXPECT_EQ(r.directions, 0);
   for (const RankedCandidate& c : r.states[0].candidates)
-    EXPECT_NEAR(*c.metrics[0].parameters / c.metrics[0].value, 0.2, 0.03);
+    EXPECT_NEAR(*c.metrics[0].parameters / c.metrics[0].value, 0.2, 2e-3);
   const std::string table = ranking_table({"flat", "a3h600"}, options_, r);
   EXPECT_NE(table.find("belief about finger and model"), std::string::npos) << table;
   EXPECT_NE(ranking_json({"flat", "a3h600"}, options_, r).find("\"members\": 2"),

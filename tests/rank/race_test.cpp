@@ -123,9 +123,13 @@ void expect_candidates(const Told& told, const RankOptions& options, const State
         ahead += d.low > 0;
         behind += d.high < 0;
       }
+      bool equal = j != r.index;
+      for (std::size_t c = 0; c < options.criteria.size() && equal; ++c)
+        equal = told.of_criterion(c).equal(r.index, j);
       const Relation relation = ahead > 0 && behind > 0 ? Relation::TradeOff
                                 : ahead > 0             ? Relation::Better
                                 : behind > 0            ? Relation::Worse
+                                : equal                 ? Relation::Equal
                                                         : Relation::Open;
       EXPECT_EQ(r.over[j], relation) << r.index << " over " << j;
     }
@@ -142,14 +146,15 @@ void expect_open(const std::vector<Scores>& boards, const RankOptions& options,
   for (std::size_t k = 0; k < boards.size(); ++k) {
     const std::vector<std::size_t> order = boards[k].order();
     for (std::size_t i = 0; i + 1 < order.size(); ++i) {
-      if (boards[k].decided(order[i], order[i + 1])) continue;
+      if (boards[k].decided(order[i], order[i + 1]) || boards[k].equal(order[i], order[i + 1]))
+        continue;
       expected.push_back(fmt::format("{} {} {}", order[i], order[i + 1], k));
       const std::size_t fewer =
           std::min(boards[k].skins[order[i]].size(), boards[k].skins[order[i + 1]].size());
       EXPECT_GT(static_cast<int>(fewer) + options.batch, options.max_skins);
     }
   }
-  for (const OpenPair& p : state.open)
+  for (const CandidatePair& p : state.open)
     said.push_back(fmt::format("{} {} {}", p.first, p.second, p.criterion));
   EXPECT_EQ(said, expected);
 }
@@ -314,13 +319,18 @@ TEST(Race, ACriterionOfZerosLeavesTheOthers) {
   EXPECT_EQ(both.candidates[0].index, alone.candidates[0].index);
 }
 
-// Twins stay open to the last batch, and all that is said of it is said once.
+// Two films of the same two regions, of which each skin meets another: their difference has another
+// sign from skin to skin, so that they stay open to the last batch, and all that is said of it is
+// said once.
 TEST(Race, ABatchGoesToBothOfAnOpenPairThatHaveAsMany) {
-  const Design flat = small_sample("flat"), holes = small_sample("a4h600");
+  const Design flat = small_sample("flat");
+  Design thicker = flat;
+  thicker.surface.dielectric[0].thickness *= 1.02;
+  const Regions one{flat, thicker}, other{thicker, flat}, holes{small_sample("a4h600")};
   RankOptions options = quick("modulation:high");
   std::vector<std::string> notes;
   options.note = [&](const std::string& text) { notes.push_back(text); };
-  const auto skins = [&](const std::vector<Design>& designs, int most) {
+  const auto skins = [&](const std::vector<Regions>& designs, int most) {
     notes.clear();
     options.max_skins = most;
     std::vector<int> out(designs.size());
@@ -329,7 +339,7 @@ TEST(Race, ABatchGoesToBothOfAnOpenPairThatHaveAsMany) {
     return out;
   };
   using Ints = std::vector<int>;
-  const std::vector<Design> twins{flat, holes, flat};
+  const std::vector<Regions> twins{one, holes, other};
   EXPECT_EQ(skins(twins, 12), (Ints{12, 3, 12}));
   EXPECT_EQ(notes, (std::vector<std::string>{"clean: 2 of 3 candidates still open"}));
   EXPECT_EQ(skins(twins, 11), (Ints{9, 3, 9}));
@@ -337,11 +347,52 @@ TEST(Race, ABatchGoesToBothOfAnOpenPairThatHaveAsMany) {
   EXPECT_EQ(skins(twins, 5), (Ints{3, 3, 3}));
   EXPECT_TRUE(notes.empty());
   EXPECT_EQ(skins(twins, 1), (Ints{3, 3, 3}));  // a batch everyone gets
-  EXPECT_EQ(skins({flat, flat, flat}, 6), (Ints{6, 6, 6}));
+  // Of two that are equal both meet what the third asks for.
+  EXPECT_EQ(skins({one, other, one}, 6), (Ints{6, 6, 6}));
   EXPECT_EQ(notes, (std::vector<std::string>{"clean: 3 of 3 candidates still open"}));
   options.states = {FingerState::Wet};
-  skins({flat, flat}, 6);
+  skins({one, other}, 6);
   EXPECT_EQ(notes, (std::vector<std::string>{"wet: 2 of 2 candidates still open"}));
+}
+
+// More skins would say nothing of them, felt or seen.
+TEST(Race, EqualDesignsGetNoMoreSkins) {
+  Design flat = small_sample("flat"), clear = flat;
+  clear.surface.refractive_index += 0.1;  // no finger feels it
+  RankOptions options = quick("friction:low");
+  const StateRanking felt = ranking_of(std::vector{flat, clear}, options).states.at(0);
+  EXPECT_EQ(felt.skins, 6);
+  EXPECT_TRUE(felt.open.empty());
+  ASSERT_EQ(felt.equal.size(), 1u);
+  EXPECT_EQ(felt.candidates[0].over[1 - felt.candidates[0].index], Relation::Equal);
+  EXPECT_TRUE(felt.candidates[0].tied_with_next);
+  EXPECT_EQ(felt.candidates[1].rank, 1);
+  // No eye sees how water wets. Of a surface that is not random one look is all there is.
+  Design dry = flat;
+  dry.surface.contact_angle += 0.1;
+  options = quick("haze:low");
+  const StateRanking seen = ranking_of(std::vector{flat, dry}, options).states.at(0);
+  EXPECT_EQ(seen.touching, "seen, not felt");
+  EXPECT_EQ(seen.skins, 2);
+  EXPECT_EQ(seen.equal_skins, 2);
+  EXPECT_EQ(seen.candidates[0].skins, 1);
+  EXPECT_TRUE(seen.open.empty());
+  EXPECT_EQ(seen.equal.size(), 1u);
+}
+
+// A look of few wavelengths, and one of holes that are wide and shallow.
+TEST(Race, SaysHowFarALookCanBeTrusted) {
+  Design fine = small_sample("a4h600"), wide = fine;
+  HoleArray holes{.lattice = Lattice::Square, .period = 3e-6, .diameter = 1e-6, .depth = 20e-9};
+  fine.texture = Texture{holes};
+  holes.period = 30e-6, holes.diameter = 15e-6;
+  wide.texture = Texture{holes};
+  RankOptions options = quick("haze:low");
+  options.names = {"fine", "wide"};
+  const Ranking r = ranking_of(std::vector{fine, wide}, options);
+  ASSERT_EQ(r.notes.size(), 1u);
+  EXPECT_EQ(r.notes[0].rfind("look of fine: features of ", 0), 0u) << r.notes[0];
+  EXPECT_EQ(r.notes[0].find("look of wide"), std::string::npos);
 }
 
 TEST(Race, EachRefusalSaysWhatIsWrong) {

@@ -43,6 +43,18 @@ TEST(Scores, TheFingersStepsWidenTheIntervalInSquares) {
   EXPECT_NEAR(i.value - i.low, i.high - i.value, 1e-12);
 }
 
+// On the skins that both have met, and over the steps.
+TEST(Scores, AreEqualWhereNothingTellsThemApart) {
+  Scores s{{{1, 2, 3}, {1, 2}, {1, 3}, {2, 1}}, {}};
+  EXPECT_TRUE(s.equal(0, 1));
+  EXPECT_FALSE(s.equal(0, 2));
+  EXPECT_FALSE(s.equal(1, 3));  // the same mean
+  s.steps = {{{1, 1}}, {{1, 1}}, {{1, 1}}, {{1, 1}}};
+  EXPECT_TRUE(s.equal(0, 1));
+  s.steps[1] = {{1, 1.5}};
+  EXPECT_FALSE(s.equal(0, 1));
+}
+
 // Two have met four skins, whose last two raise their means by 1.5 and by 0.5.
 TEST(Scores, SkinsNotMetMoveAMeanAsTheyMoveThoseThatMetThem) {
   const Scores s{{{1, 2, 3, 6}, {0, 1}, {1, 1, 2, 2}}, {}};

@@ -48,9 +48,10 @@ struct Fitted {
     r.fit.variance_factor = 2.25;
     r.rows = {{"M1", "friction", 0.1, 0.3, 0.02, 0.003, 0.4, 0.25, 0.5},
               {"M2", "ratio", 1.5, 1.5, 0.25, 0.05, 1.75, 1.625, -1.25},
-              {"M3", "more", 2, kInfinity, 0.5, 0.01, 1, 3, 2}};
+              {"M3", "more", 2, kInfinity, 0.5, 0.01, 1, 3, 2, 0.75}};
     r.chi2_before = 30;
     r.evaluations = 17;
+    r.least_factor = 0.812, r.largest_factor = 1.05;
     r.gap_before = 1.5e-6, r.gap_after = 1.25e-6;
     r.friction_coefficient = {0.21, 0.32, 0.43, 0.54};
   }
@@ -63,7 +64,9 @@ TEST(FitReport, ForPeopleHasEachNumberInTheUnitBesideIt) {
        {"# Fit: a fit\n",
         "3 residuals, 2 parameters; χ² of the data 30 before, 7.5 after, of the priors 0.75; 3 "
         "degrees of freedom; errors times 1.5; 17 evaluations of the model; converged.\n",
-        "Skins 5 to 16 at level draft; frictions corrected to level design on the same skins.\n",
+        "Skins 5 to 16 at level draft; frictions times 0.812 to 1.050, which level design says "
+        "over "
+        "it on the same skins (Eq. calibration.6).\n",
         "| skin.rms | 2 um | 2.5 um | 2.25 um to 2.75 um (bound) | 3 um ± 0.5 um | 25 |\n",
         "| water.scale | 1 | 1.25 | 0.8 to 1.75 | 1.5 times or by 2 | 60; at its bound, interval "
         "by "
@@ -87,7 +90,11 @@ TEST(FitReport, SaysThatFewSkinsMoveAllResidualsTogether) {
   };
   ASSERT_EQ(f.c.sampling.skins, 12);
   EXPECT_FALSE(says());
-  f.c.sampling.skins = 11;
+  f.c.sampling.skins = 5;
+  EXPECT_TRUE(says());
+  f.c.sampling.skins = 6;  // rows of a table know what they have in common
+  EXPECT_FALSE(says());
+  f.c.fit = {"M1"};  // claims do not
   EXPECT_TRUE(says());
 }
 
@@ -179,6 +186,7 @@ TEST(FitReport, ForProgramsIsInSi) {
                {"high", nullptr},
                {"sd", 0.5},
                {"sampling_sd", 0.01},
+               {"deviation", 0.75},
                {"before", 1},
                {"after", 3},
                {"residual", 2}},
@@ -288,7 +296,7 @@ TEST(FitReport, EndsOfRowsThatAreOpenAreSaidSo) {
   EXPECT_NE(page.find("| M3 | more | below 0.125 |"), std::string::npos) << page;
   EXPECT_NE(page.find("17 evaluations of the model; stopped: budget.\n"), std::string::npos);
   EXPECT_NE(page.find("2.25 um to 2.75 um (bound) | none | 25 |"), std::string::npos);
-  EXPECT_NE(page.find("Skins 5 to 16 at level draft.\n"), std::string::npos);
+  EXPECT_NE(page.find("times 0.812 to 1.050, which level draft says over it"), std::string::npos);
   const auto json = nlohmann::json::parse(calibration_json(f.c, f.r));
   EXPECT_TRUE(json["parameters"][0]["prior"].is_null());
   EXPECT_EQ(json["converged"], false);

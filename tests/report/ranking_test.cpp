@@ -299,6 +299,47 @@ TEST(RankingReport, WithoutWeightsItSaysWhoIsBeatenByWhom) {
   EXPECT_TRUE(json["parameters"].is_null());
 }
 
+TEST(RankingReport, SaysWhichDesignsNothingTellsApart) {
+  Ranked r;
+  StateRanking& state = r.ranking.states[0];
+  state.equal = {{1, 0, 0}};
+  const std::string both =
+      "the same on all skins, so that more would not tell them apart: fine and hard";
+  EXPECT_NE(ranking_table(r.names, r.options, r.ranking).find("the order is known; " + both),
+            std::string::npos);
+  r.options.weights.clear();
+  state.equal = {{1, 0, 2}};
+  state.open = {{0, 1, 1}};
+  state.candidates[0].over = {Relation::Equal, Relation::Open};
+  const std::string table = ranking_table(r.names, r.options, r.ranking);
+  EXPECT_NE(table.find("\n" + both + " in mean(compliance):high; 42"), std::string::npos) << table;
+  const auto json = nlohmann::json::parse(ranking_json(r.names, r.options, r.ranking));
+  EXPECT_EQ(json["candidates"][0]["over"], (std::vector<std::string>{"equal", "open"}));
+  expect_same(
+      json["states"][0]["equal"],
+      nlohmann::json::array({{{"designs", {"fine", "hard"}}, {"by", "mean(compliance):high"}}}),
+      "equal");
+}
+
+// Of a surface that is not random there is one look.
+TEST(RankingReport, OfLooksSaysHowManyThereAre) {
+  Ranked r;
+  r.options.criteria = parse_criteria("haze:low");
+  r.options.weights.clear();
+  r.ranking.directions = 0;
+  std::vector<RankedCandidate>& all = r.ranking.states[0].candidates;
+  for (RankedCandidate& c : all) c.metrics = {{0.1, 0.1, 0.1}}, c.skins = 1;
+  EXPECT_NE(ranking_table(r.names, r.options, r.ranking)
+                .find("no surface is random: there is one look of each, and no ±"),
+            std::string::npos);
+  all[1].skins = 18;
+  EXPECT_NE(
+      ranking_table(r.names, r.options, r.ranking)
+          .find("95 % intervals over arrangements of what is random (18 of each at least); of "
+                "any other surface there is one, and no ±"),
+      std::string::npos);
+}
+
 TEST(RankingReport, DesignsAreFilesByTheirNumbers) {
   EXPECT_EQ(ranked_design_file(0, 0), "designs/01.toml");
   EXPECT_EQ(ranked_design_file(11, 1), "designs/12_2.toml");

@@ -53,6 +53,44 @@ TEST(ResponseLines, WithoutADriveThereIsFrictionAlone) {
   EXPECT_EQ(below(r), "undriven (0 V): no modulation\nmean friction 0.0 ±10.0 mN; error: \n");
 }
 
+// Of a load of a millinewton digits follow the error; of what is zero there are no more.
+TEST(ResponseLines, HaveDigitsOfSmallNumbersToo) {
+  Response r;
+  r.points = {point(0.149, 0.0003), point(0.15, 0.1)};
+  r.points[0].friction_off.parts.sampling = 1.2e-5;
+  r.points[0].capillary_force.value = 1.234e-6, r.points[0].capillary_force.parts.grid = 5e-7;
+  r.points[0].area_fraction_off.value = 1.5e-5, r.points[0].area_fraction_off.parts.grid = 2e-6;
+  const std::string table = response_table(r);
+  EXPECT_NE(table.find("\n 14.9%        40       0.30 ±0.01                -               - "
+                       "0.0015 ±0.0002 0.0012 ±0.0005              -"),
+            std::string::npos)
+      << table;
+  EXPECT_NE(table.find("\n 15.0%        40      100.0 ±10.0"), std::string::npos) << table;
+  EXPECT_NE(table.find("  0.0 ±0.0 "), std::string::npos) << table;  // no water at all
+  r.points.pop_back();
+  r.points[0].friction_off.value = 0.0003;
+  EXPECT_TRUE(response_table(r).find("\n   15%") != std::string::npos) << response_table(r);
+  EXPECT_NE(below(r).find("mean friction 0.30 ±0.01 mN"), std::string::npos) << below(r);
+}
+
+// Where the drive raises what water holds by a fifth of the pull or more, or less it.
+TEST(ResponseLines, NameTheLoadThatTheDriveAddsBesideThePull) {
+  Response r;
+  r.driven = true;
+  r.points = {point(0.15, 0.1), point(0.35, 0.1), point(0.75, 0.1)};
+  for (ResponsePoint& p : r.points) p.electrostatic_force.value = 0.1;
+  r.points[0].capillary_gain = 0.019;
+  EXPECT_EQ(below(r).find("capillary"), std::string::npos) << below(r);
+  r.points[1].capillary_gain = 0.4067, r.points[2].capillary_gain = -0.03;
+  EXPECT_NE(below(r).find("F_on follows the pull and the capillary force under the drive, which "
+                          "differs from that without it by +406.7 mN at 35 % RH, -30.0 mN at 75 % "
+                          "RH\n"),
+            std::string::npos)
+      << below(r);
+  r.points[1].status = {Trouble::ClosedPullIn, 0, ""};  // has no number; the other has
+  EXPECT_NE(below(r).find(" by -30.0 mN at 75 % RH\n"), std::string::npos) << below(r);
+}
+
 TEST(ResponseLines, OfTheFieldSayTheWorstOfAllHumidities) {
   Response r;
   r.driven = true;
@@ -273,6 +311,7 @@ TEST(ResponseDocuments, HaveTheirPartsOnRequest) {
   r.driven = false;
   EXPECT_EQ(status(), "ok");
   EXPECT_TRUE(Json::parse(response_json(r))["points"][0]["source_voltage"].is_null());
+  EXPECT_TRUE(Json::parse(response_json(r))["points"][0]["capillary_gain"].is_null());
 }
 
 TEST(ResponseDocuments, APlanIsADocumentOfItsOwn) {

@@ -27,6 +27,7 @@ ResponsePoint numbered() {
   p.peak_oxide_field = 2.3e8, p.oxide_margin = 2.4, p.bridged_margin = 1.9,
   p.peak_air_field = 2.5e7;
   p.field_correction = 0.94, p.field_error = 0.06, p.bridge_water_share = 0.27;
+  p.capillary_gain = 0.019;
   return p;
 }
 
@@ -201,6 +202,7 @@ TEST(ResponseReport, ForProgramsEveryQuantityIsUnderItsName) {
                                    {"bridge_water_share", 0.27},
                                    {"over_limit_area", 0.021},
                                    {"over_limit_share", 0.22},
+                                   {"capillary_gain", 0.019},
                                    {"peak_air_field", 2.5e7},
                                    {"peak_oxide_field", 2.3e8},
                                    {"field_correction", 0.94},

@@ -268,6 +268,7 @@ TEST(UndrivenRun, AFlatAdviceCreditsTexturesWithWhatTheirFinishDoesNot) {
 
 TEST(UndrivenRun, ItsTablesHaveTheParametersAndNoModulation) {
   Searched run;
+  run.study.design.title = "Holes";
   run.folder = temporary("undriven");
   std::filesystem::create_directories(run.folder);
   FinalDesign& best = run.result.finalists[0];
@@ -291,7 +292,14 @@ TEST(UndrivenRun, ItsTablesHaveTheParametersAndNoModulation) {
                 "model,variation(friction) at search level,worst modulation,breakdown "
                 "margin,feasible,on front,status\n"
                 "front/01,3,304,70,0.08,0.002,0.03,0.085,0.25,0.012,0.02,0.26,,,yes,no,ok\n");
+  const auto titled = [&](const std::string& file) {
+    return read_design(run.folder + "/best/" + file).title;
+  };
+  EXPECT_TRUE(titled("design.toml").starts_with("Holes; ")) << titled("design.toml");
+  EXPECT_NE(titled("design.toml").find("; texture.depth 304 nm"), std::string::npos);
+  EXPECT_NE(titled("build.toml").find("; texture.depth 300 nm"), std::string::npos);
   const auto metrics = nlohmann::json::parse(read_bytes(run.folder + "/best/metrics.json"));
+  EXPECT_EQ(metrics["title"], titled("design.toml"));
   expect_same(
       metrics["parameters"],
       {{"status", "ok"},

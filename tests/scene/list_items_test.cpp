@@ -5,6 +5,7 @@
 
 #include "config/describe.h"
 #include "scene/scene.h"
+#include "scene/view.h"
 
 namespace papilla::tests::list_items_test {
 namespace {
@@ -49,6 +50,17 @@ TEST(ListItems, OfAnUncertaintyAreItsNumbers) {
             "parameter: a text, , skin.rms, choice \n"
             "deviation: a share in %, 0 to 300 %, 10 %, fit papilla calibrate\n"
             "correlation: a list, each a number, -1 to 1, [0.5], fit papilla calibrate\n");
+}
+
+// A file states thickness and index; a film that says nothing of it absorbs nothing.
+TEST(ListItems, OfAFilmOfTheViewAreItsOpticalNumbers) {
+  EXPECT_EQ(keys_of(ViewFilm{}),
+            "material: a text, , , choice \n"
+            "thickness: a length in nm, 0 to 100000 nm, 0 nm, choice \n"
+            "refractive_index: a number, 1 to 5, 1, choice \n"
+            "extinction: a number, 0 to 5, 0, choice \n");
+  for (const FieldRow& row : field_rows(ViewFilm{}))
+    EXPECT_EQ(row.required, row.path == "thickness" || row.path == "refractive_index") << row.path;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/units.h"
+#include "design/title.h"
 #include "report/results.h"
 #include "search/advice.h"
 #include "search/pick.h"
@@ -92,7 +93,8 @@ TEST(OptimiseOfOneRun, WritesItsResults) {
   double shares = 0;
   for (const VariableSensitivity& s : run.result.sensitivity) shares += s.share[0];
   EXPECT_NEAR(shares, 1, 1e-12);
-  const Design recommended = recommended_design(StudyProblem(run.study), run.result).design;
+  Design recommended = recommended_design(StudyProblem(run.study), run.result).design;
+  recommended.title = title_as_changed(run.study.design, recommended);
   EXPECT_EQ(read_design(run.folder + "/best/design.toml"), recommended);
   EXPECT_EQ(fs::exists(run.folder + "/best/mask.tif"), facts(recommended.texture).relief.present);
   EXPECT_FALSE(fs::exists(run.folder + "/" + kProgressFile));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <map>
+#include <utility>
 
 #include "base/constants.h"
 #include "physics/optics/order_screen.h"
@@ -24,6 +26,13 @@ Grid cell_of(const FeatureArray& a) {
 class ArrayScreen : public OrderScreen {
  public:
   explicit ArrayScreen(const FeatureArray& array) : OrderScreen(cell_of(array)), array_(array) {}
+
+  double step() const override {
+    double low = 0, high = 0;  // the surroundings
+    for (const Terrace& t : array_.terraces)
+      low = std::min(low, t.height), high = std::max(high, t.height);
+    return high - low;
+  }
 
   double sparkle(double step, const Panel& panel) const override {
     constexpr int kPixels = 128;
@@ -47,8 +56,8 @@ class ArrayScreen : public OrderScreen {
     for (int m = 0; m <= mx; ++m) {
       for (int n = 0; n <= my; ++n) {
         Complex f = m == 0 && n == 0 ? land : Complex(0);
-        for (std::size_t j = 0; j < rises.size(); ++j)
-          f += share(array_.terraces[j].width, m, n) * rises[j];
+        const std::vector<double>& of_terraces = shares(m, n);
+        for (std::size_t j = 0; j < rises.size(); ++j) f += of_terraces[j] * rises[j];
         quarter.push_back(std::norm(f));
       }
     }
@@ -77,6 +86,15 @@ class ArrayScreen : public OrderScreen {
     return (hexagonal ? 2 : 1) * 0.25 * kPi * w * w / cell().area() * airy(q);
   }
 
+  // Of each terrace: every wavelength and angle asks for the same.
+  const std::vector<double>& shares(int m, int n) const {
+    const auto [place, missing] = shares_.try_emplace({m, n});
+    if (missing) {
+      for (const Terrace& t : array_.terraces) place->second.push_back(share(t.width, m, n));
+    }
+    return place->second;
+  }
+
   // Its heights, pixel by pixel.
   Heightmap terraced(int pixels) const {
     const bool line = array_.shape == FeatureArray::Shape::Line;
@@ -103,6 +121,7 @@ class ArrayScreen : public OrderScreen {
   }
 
   const FeatureArray& array_;
+  mutable std::map<std::pair<int, int>, std::vector<double>> shares_;
 };
 
 }  // namespace

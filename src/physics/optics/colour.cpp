@@ -1,5 +1,7 @@
 #include "physics/optics/colour.h"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "base/constants.h"
@@ -42,21 +44,73 @@ std::array<double, 2> chromaticity(const std::vector<double>& wavelengths,
   return sum > 0 ? std::array<double, 2>{4 * x / sum, 9 * y / sum} : std::array<double, 2>{0, 0};
 }
 
-const std::vector<PhotopicNode>& photopic_nodes() {
-  static const std::vector<PhotopicNode> list = [] {
-    double sum = 0, mean = 0, second = 0;
-    for (const double l : visible_wavelengths()) {
-      const double y = observer(l)[1];
-      sum += y, mean += y * l, second += y * l * l;
-    }
-    mean /= sum;
-    const double spread = std::sqrt(second / sum - mean * mean);
-    // Gauss and Hermite's rule of three nodes: exact for a normal weight and fifth powers.
-    return std::vector<PhotopicNode>{{mean - std::sqrt(3.0) * spread, 1.0 / 6},
-                                     {mean, 2.0 / 3},
-                                     {mean + std::sqrt(3.0) * spread, 1.0 / 6}};
-  }();
-  return list;
+namespace {
+
+// Of this many nodes for the weight ybar over 1/wavelength, which is sampled finer than any node is
+// placed: the recurrence of its orthonormal polynomials (Stieltjes), whose Jacobi matrix has the
+// nodes as eigenvalues (Golub and Welsch 1969).
+std::vector<PhotopicNode> gauss_rule(Eigen::Index count) {
+  const double first = visible_wavelengths().front(), last = visible_wavelengths().back();
+  const Eigen::Index samples = 160 + 4 * count;
+  Eigen::ArrayXd place(samples), weight(samples);
+  for (Eigen::Index i = 0; i < samples; ++i) {
+    const double wavelength =
+        first + (last - first) * static_cast<double>(i) / static_cast<double>(samples - 1);
+    place[i] = 1 / wavelength, weight[i] = observer(wavelength)[1];
+  }
+  weight /= weight.sum();
+  Eigen::ArrayXd before = Eigen::ArrayXd::Zero(samples), here = Eigen::ArrayXd::Ones(samples);
+  Eigen::VectorXd middle(count), beside(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    middle[k] = (weight * place * here * here).sum();
+    Eigen::ArrayXd next = (place - middle[k]) * here;
+    if (k > 0) next -= beside[k - 1] * before;
+    beside[k] = std::sqrt((weight * next * next).sum());
+    before = here, here = next / beside[k];
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> jacobi;
+  jacobi.computeFromTridiagonal(middle, beside.head(count - 1));
+  std::vector<PhotopicNode> out;
+  for (Eigen::Index k = 0; k < count; ++k)
+    out.push_back({1 / jacobi.eigenvalues()[k], square(jacobi.eigenvectors()(0, k))});
+  return out;
+}
+
+// Midpoints of equal steps of the wavelength. Fringes of this path come at most once a step where
+// ybar is more than a few per cent, from 470 nm on, and those that are left over do so at one
+// wavelength alone: none are counted as if they were none.
+std::vector<PhotopicNode> equal_steps(double path) {
+  constexpr double kMargin = 8e-6, kBlue = 470e-9;  // [m]
+  const double first = visible_wavelengths().front(), last = visible_wavelengths().back();
+  const int count = static_cast<int>(std::ceil((last - first) * (path + kMargin) / square(kBlue)));
+  std::vector<PhotopicNode> out;
+  double sum = 0;
+  for (int k = 0; k < count; ++k) {
+    const double wavelength = first + (last - first) * (k + 0.5) / count;
+    out.push_back({wavelength, observer(wavelength)[1]});
+    sum += out.back().weight;
+  }
+  for (PhotopicNode& node : out) node.weight /= sum;
+  return out;
+}
+
+}  // namespace
+
+std::vector<PhotopicNode> photopic_nodes(double path) {
+  // The polynomials of many nodes lose their orthogonality, and equal steps take fewer.
+  constexpr double kLongestOfGauss = 10e-6, kFewest = 3, kAtNone = 1.4, kOfPath = 2e6;  // 1/m
+  if (path > kLongestOfGauss) return equal_steps(path);
+  return gauss_rule(
+      static_cast<Eigen::Index>(std::max(kFewest, std::ceil(kAtNone + kOfPath * path))));
+}
+
+std::vector<double> within_row(double wavelength, double path) {
+  constexpr double kRow = 20e-9, kOfOne = 2e-6;
+  const int count =
+      static_cast<int>(std::max(1.0, std::ceil(std::min(path, kLongestPath) / kOfOne) - 1));
+  std::vector<double> out;
+  for (int k = 0; k < count; ++k) out.push_back(wavelength + kRow * ((k + 0.5) / count - 0.5));
+  return out;
 }
 
 }  // namespace papilla::optics

@@ -6,6 +6,7 @@
 
 #include "base/constants.h"
 #include "base/rooms.h"
+#include "physics/optics/colour.h"
 #include "physics/optics/media.h"
 
 namespace papilla::optics {
@@ -24,9 +25,17 @@ struct OpticalMedia {
   bool cut_into_film() const { return thickness < kInfinity; }
   double glass() const { return cut_into_film() ? plate_index : index; }
   bool absorbs() const;
+  // What light goes further that comes back from the plate than what comes back from the top, over
+  // the normal: the fringes of its films follow each other at 1/path of 1/wavelength [m].
+  double path() const;
 
   bool operator==(const OpticalMedia&) const = default;
 };
+
+// Wavelengths that gloss is read at: for the fringes of the films, half of their paths again for
+// light that goes there twice, and for those of a texture whose relief makes a path of this length
+// [m]. Eq. optics.20
+std::vector<PhotopicNode> gloss_nodes(const OpticalMedia& media, double of_relief);
 
 class Column {
  public:
@@ -37,11 +46,17 @@ class Column {
   Complex back(double height) const;  // reflected into the fill
   // What a flat face reflects from inside, at the height of the land.
   double from_inside() const;
+  // What that face and a back face of this reflection send into the fill of light from there.
+  double into_fill(double back) const;
 
   // The amplitude has the same size at every height: a phase screen, of so much phase a metre.
   bool even() const { return !media_.cut_into_film(); }
   double phase_through() const { return through_; }
   double phase_back() const { return back_; }
+  // Of what is cut into a film: what its top reflects at the height of the land, of phase_back() a
+  // metre, and what comes from below, of phase_below(). Both are all that `back` has there.
+  Complex top() const;
+  double phase_below() const { return 2 * through_; }
 
  private:
   Amplitudes flat(double height) const;

@@ -51,6 +51,11 @@ std::vector<Sheet> below(const OpticalMedia& media, double depth, Features featu
 struct FaceShares {
   double reflected, transmitted, from_inside;
   Polarisation polarisation;
+
+  // With a back face that reflects so much.
+  double into_fill(double back) const {
+    return reflected + square(transmitted) * back / (1 - from_inside * back);
+  }
 };
 std::vector<FaceShares> face_shares(double open, double depth, Features features,
                                     const OpticalMedia& media, double wavelength, double sine) {
@@ -114,22 +119,32 @@ double disorder_haze(double open, double depth, Features features, const Optical
     sum += spectrum(q) * dq * (lines ? 2 / (2 * kPi) : q / (2 * kPi));
   }
   const double density = lines ? share / w : share / (0.25 * kPi * w * w);
-  return -std::expm1(-square(k * depth) * slope * density * sum);
+  // Of fine features the phase follows their local share; through each wide one light has the phase
+  // and the loss of its own medium, alike for both polarisations of an isotropic one.
+  const Complex between =
+      normal_wave(plain({media.index, media.extinction}), Polarisation::S, sine) -
+      normal_wave(plain(media.fill), Polarisation::S, sine);
+  const double fine = square(k * depth) * slope;
+  const double wide = std::norm(1.0 - std::exp(Complex(0, k * depth) * between));
+  const double contrast = (1 - disorder.resolved) * fine + disorder.resolved * wide;
+  return -std::expm1(-contrast * density * sum);
 }
 
 // Reads like a flat face: light is reflected undeviated. Eq. optics.11
 double gloss_units(double open, double depth, Features features, const OpticalMedia& media,
-                   int degrees, bool black_back) {
+                   const std::vector<PhotopicNode>& nodes, int degrees, bool black_back) {
   const double sine = std::sin(gloss_meter(degrees).angle);
   double sum = 0;
-  for (const PhotopicNode& node : photopic_nodes()) {
+  for (const PhotopicNode& node : nodes) {
     const auto shares = face_shares(open, depth, features, media, node.wavelength, sine);
     for (const FaceShares& f : shares) {
       const double back = black_back ? 0
                                      : boundary_reflection(plain(media.back), plain(media.glass()),
                                                            f.polarisation, sine);
+      const OuterFace outer(media.fill, f.polarisation, sine);
+      const double below = f.into_fill(back);
       sum += node.weight / static_cast<double>(shares.size()) *
-             (f.reflected + square(f.transmitted) * back / (1 - f.from_inside * back));
+             (outer.reflected() + outer.twice(below) * below);
     }
   }
   return 100 * sum / face_reflection(kGlossStandard, sine);
@@ -148,9 +163,10 @@ Optics effective_medium(double open, double depth, Features features, const Opti
                            [](double sum, const FaceShares& f) { return sum + f.reflected; }) /
            static_cast<double>(shares.size());
   };
-  for (const double angle : light.angles) {
+  const Light followed = light.followed(media.path());
+  for (const double angle : followed.angles) {
     const double sine = std::sin(angle);
-    for (const double wavelength : light.wavelengths) {
+    for (const double wavelength : followed.wavelengths) {
       SpectrumPoint p;
       p.wavelength = wavelength, p.angle = angle;
       const double scattered = disorder_haze(open, depth, features, media, disorder, wavelength,
@@ -162,7 +178,8 @@ Optics effective_medium(double open, double depth, Features features, const Opti
       for (const FaceShares& f : shares) {
         const double back =
             boundary_reflection(plain(media.back), plain(media.glass()), f.polarisation, sine);
-        p.total += f.transmitted * (1 - back) / (1 - f.from_inside * back) /
+        p.total += f.transmitted * (1 - back) / (1 - f.from_inside * back) *
+                   OuterFace(media.fill, f.polarisation, sine).once(f.into_fill(back)) /
                    static_cast<double>(shares.size());
       }
       p.transmitted = clear * p.specular * p.total;
@@ -171,10 +188,13 @@ Optics effective_medium(double open, double depth, Features features, const Opti
       out.spectrum.push_back(p);
     }
   }
-  photopic_means(out, light);
-  out.gloss_20 = gloss_units(open, depth, features, media, 20, light.meters.black_back);
-  out.gloss = gloss_units(open, depth, features, media, 60, light.meters.black_back);
-  out.gloss_85 = gloss_units(open, depth, features, media, 85, light.meters.black_back);
+  photopic_means(out, followed);
+  gather_rows(out, light);
+  const std::vector<PhotopicNode> nodes = gloss_nodes(media, 2 * media.index * depth);
+  const auto gloss = [&](int degrees) {
+    return gloss_units(open, depth, features, media, nodes, degrees, light.meters.black_back);
+  };
+  out.gloss_20 = gloss(20), out.gloss = gloss(60), out.gloss_85 = gloss(85);
   return out;
 }
 

@@ -16,6 +16,15 @@ class MapScreen : public OrderScreen {
     low_ = *low, high_ = *high;
   }
 
+  // A map has two levels where most of it lies within a few per cent of either.
+  double step() const override {
+    constexpr double kNear = 0.05, kMost = 0.5;
+    const double whole = high_ - low_;
+    const auto level = [&](double z) { return std::min(z - low_, high_ - z) <= kNear * whole; };
+    const auto near = std::count_if(map_.z.begin(), map_.z.end(), level);
+    return static_cast<double>(near) > kMost * static_cast<double>(map_.z.size()) ? whole : 0;
+  }
+
   double sparkle(double step, const Panel& panel) const override {
     return map_sparkle(map_, step, panel);
   }

@@ -58,4 +58,7 @@ double plate(double reflected1, double reflected2) {
   return (1 - reflected1) * (1 - reflected2) / (1 - reflected1 * reflected2);
 }
 
+OuterFace::OuterFace(double fill, Polarisation p, double sine)
+    : reflected_(boundary_reflection(plain(1), plain(fill), p, sine)) {}
+
 }  // namespace papilla::optics

@@ -55,4 +55,19 @@ Amplitudes stack_amplitudes(const Medium& from, const std::vector<Sheet>& sheets
 // Both faces of a plate without interference. Eq. optics.4
 double plate(double reflected1, double reflected2);
 
+// The flat face towards air of what fills a texture; it does not interfere. Eq. optics.4
+class OuterFace {
+ public:
+  OuterFace(double fill, Polarisation p, double sine);
+
+  double reflected() const { return reflected_; }
+  // Of light that crosses it once, share that leaves, where what lies below reflects so much.
+  double once(double below) const { return (1 - reflected_) / (1 - reflected_ * below); }
+  // Of what lies below, share of its reflection that comes out: in and out.
+  double twice(double below) const { return (1 - reflected_) * once(below); }
+
+ private:
+  double reflected_;
+};
+
 }  // namespace papilla::optics

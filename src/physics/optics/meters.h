@@ -28,6 +28,8 @@ struct Receptor {
   // No direction that differs by more is accepted.
   double reach_x() const;  // [rad]
   double reach_y() const;
+
+  bool operator==(const Receptor&) const = default;
 };
 
 // ISO 2813 (ASTM D523): source and receptor of 20, 60 and 85 deg.

@@ -21,6 +21,9 @@ struct Light {
   std::vector<double> wavelengths = visible_wavelengths();  // [m], in vacuum
   std::vector<double> angles{0};  // between the light in air and the normal [rad], below 80 deg
   Meters meters{};
+
+  // The same with each wavelength by those that stand for its row. Eq. optics.20
+  Light followed(double path) const;
 };
 
 struct SpectrumPoint {
@@ -63,6 +66,7 @@ struct Disorder {
   double width = 0;         // mean diameter or groove width [m]; 0: none is asked for
   double displacement = 0;  // standard deviation of each coordinate [m]
   double scatter = 0;       // standard deviation / mean of the width
+  double resolved = 0;      // 0: features finer than the wavelength, 1: far wider ones
 };
 
 // Thin phase screen of one period (or a patch of 100 um and more for random textures).
@@ -87,6 +91,9 @@ Optics rough_look(const std::vector<RoughScale>& scales, const OpticalMedia& med
 enum class Features { Holes, Pillars, Lines };
 Optics effective_medium(double open, double depth, Features features, const OpticalMedia& media,
                         const Disorder& disorder = {}, const Light& light = {});
+
+// The rows of this light, each the mean over what stands for it in the spectrum of `followed`.
+void gather_rows(Optics& o, const Light& light);
 
 // Photopic means of the spectrum of an answer: its haze, transmittances and colour. Eq. optics.6
 void photopic_means(Optics& o, const Light& light);

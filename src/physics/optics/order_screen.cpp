@@ -73,10 +73,18 @@ double OrderScreen::taken(const OrderPowers& powers, double wavelength,
   return sum;
 }
 
-double OrderScreen::received(const Column& column, double wavelength,
-                             const Receptor& receptor) const {
-  const double reach = reach_of(receptor);
-  return taken(within(column, Passage::Back, wavelength, reach), wavelength, receptor);
+std::vector<double> OrderScreen::received(const Column& column, double wavelength,
+                                          const std::vector<Receptor>& receptors) const {
+  double reach = 0;
+  for (const Receptor& r : receptors) reach = std::max(reach, reach_of(r));
+  const OrderPowers powers = within(column, Passage::Back, wavelength, reach);
+  std::vector<double> out;
+  for (const Receptor& r : receptors) out.push_back(taken(powers, wavelength, r));
+  return out;
+}
+
+double OrderScreen::mirrored(const Column& column, double wavelength) const {
+  return within(column, Passage::Back, wavelength, 0).at(0, 0);
 }
 
 // Light that a face scatters twice is left out: once, on the way in or on the way out.

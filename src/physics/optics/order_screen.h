@@ -28,7 +28,10 @@ class OrderScreen : public Screen {
   explicit OrderScreen(const Grid& cell) : cell_(cell) {}
 
   Sent through(const Column& column, double wavelength, double sine, double cone) const override;
-  double received(const Column& column, double wavelength, const Receptor& receptor) const override;
+  using Screen::received;
+  std::vector<double> received(const Column& column, double wavelength,
+                               const std::vector<Receptor>& receptors) const override;
+  double mirrored(const Column& column, double wavelength) const override;
   double received_twice(const Column& column, double wavelength,
                         const Receptor& receptor) const override;
 

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "base/rooms.h"
 #include "geometry/facts.h"
@@ -25,13 +26,21 @@ class Screen {
 
   // Through the face, mean over the planes of incidence x and y. Eq. optics.2, 8
   virtual Sent through(const Column& column, double wavelength, double sine, double cone) const = 0;
-  // Reflected into a receptor. Eq. optics.3, 11
-  virtual double received(const Column& column, double wavelength,
-                          const Receptor& receptor) const = 0;
+  // Reflected into receptors at one angle. Eq. optics.3, 11
+  virtual std::vector<double> received(const Column& column, double wavelength,
+                                       const std::vector<Receptor>& receptors) const = 0;
+  double received(const Column& column, double wavelength, const Receptor& receptor) const {
+    return received(column, wavelength, std::vector<Receptor>{receptor}).front();
+  }
   // Share of the light that passes the face twice, to and from a mirror behind it, that a receptor
   // takes.
   virtual double received_twice(const Column& column, double wavelength,
                                 const Receptor& receptor) const = 0;
+  // Reflected in the mirror direction alone. Eq. optics.3
+  virtual double mirrored(const Column& column, double wavelength) const = 0;
+  // Difference between its two levels, whose light interferes; 0 where heights are gradual, of
+  // which it averages out. [m]
+  virtual double step() const = 0;
   // Spread of the power that subpixels send into the pupil, over its mean; `step`: difference of
   // the indices on both sides. Eq. optics.14-16
   virtual double sparkle(double step, const Panel& panel) const = 0;

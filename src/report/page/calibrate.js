@@ -64,7 +64,7 @@ function showDirections() {
 }
 
 function showResiduals() {
-  const rows = fit.residuals, miss = (r, v) => (r.low !== null && v < r.low ? v - r.low : r.high !== null && v > r.high ? v - r.high : 0) / Math.hypot(r.sd, r.sampling_sd);
+  const rows = fit.residuals, miss = (r, v) => (r.low !== null && v < r.low ? v - r.low : r.high !== null && v > r.high ? v - r.high : 0) / r.deviation;
   const among = (r) => rows.filter((o) => o.source === r.source).length, names = rows.map((r) => among(r) > 1 ? `${r.source}, ${r.what.split(' ')[0]}` : r.source), clip = (v) => Math.min(Math.max(v, -6), 6);
   const set = (label, key, tint) => ({ label, backgroundColor: tint, maxBarThickness: 9, data: rows.map((r) => clip(miss(r, r[key]))), text: rows.map((r) => `${label} the fit: ${r.what} ${round(r[key], 4)}, miss ${miss(r, r[key]).toFixed(2)} sd`) });
   rowsChart('misses', names, [set('before', 'before', faint.searched), set('after', 'after', colours[0])], axis('miss [standard deviations]', { min: -6, max: 6 }));

@@ -136,7 +136,7 @@ function showCompared() {
 function select(index) {
   const state = ranking.states[+index], list = state.candidates, first = list.filter((c) => c.rank === 1), names = first.map((c) => c.name);
   document.documentElement.dataset.state = state.state;
-  const who = `On the ${state.state} finger `;
+  const who = ranking.felt ? `On the ${state.state} finger ` : 'By looks alone ';
   if (!ranking.scored) {
     const bests = ranking.criteria.map((k) => { const c = list.reduce((a, o) => o.p_best_by[k.metric] > a.p_best_by[k.metric] ? o : a); return `${c.name} in ${k.metric} (probability ${likely(c.p_best_by[k.metric])})`; });
     $('lead').textContent = who + (names.length > 1 ? `no weights settle the trade-off: nobody beats ${listed(names)}.` : `${names[0]} is beaten by nobody, and all others are.`) + ' Best: ' + listed(bests) + '.';

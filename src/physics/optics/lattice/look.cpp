@@ -72,7 +72,9 @@ class LatticeFace {
         media_(media),
         meters_(meters),
         beyond_(beyond),
-        lines_(array.shape == FeatureArray::Shape::Line) {}
+        lines_(array.shape == FeatureArray::Shape::Line),
+        // Between its planes light goes through the features as well as past them.
+        nodes_(gloss_nodes(media, 2 * media.index * std::abs(array.terraces.back().height))) {}
 
   SpectrumPoint along_normal(double wavelength) const {
     SpectrumPoint out;
@@ -81,11 +83,13 @@ class LatticeFace {
     double cone = 0, all = 0;
     const double back =
         boundary_reflection(plain(media_.back), plain(media_.glass()), Polarisation::S, 0);
+    const double leaves = OuterFace(media_.fill, Polarisation::S, 0)
+                              .once(Column(media_, Polarisation::S, 0, wavelength).into_fill(back));
     // Round features on a square or hexagonal lattice look alike to both.
     const auto polarisations = lines_ ? 2u : 1u;
     for (unsigned k = 0; k < polarisations; ++k) {
       const Diffracted d = diffract(stack_, {wavelength, 0, kPolarisations[1 - k]}, beyond_);
-      const double rest = (1 - back) / (1 - d.mirrored() * back) / polarisations;
+      const double rest = (1 - back) / (1 - d.mirrored() * back) / polarisations * leaves;
       out.transmitted += (1 - meters_.inner_haze) * d.straight() * rest;
       out.total += d.transmission() * rest;
       for (const LatticeOrder& o : d.transmitted) {
@@ -106,15 +110,19 @@ class LatticeFace {
     std::vector<LatticeStack> planes{reversed(stack_)};
     if (lines_) planes.push_back(turned(planes.front()));
     double sum = 0;
-    for (const PhotopicNode& node : photopic_nodes()) {
-      for (const LatticeStack& plane : planes) {
-        for (const Polarisation p : kPolarisations) {
+    for (const PhotopicNode& node : nodes_) {
+      for (const Polarisation p : kPolarisations) {
+        double taken = 0;
+        for (const LatticeStack& plane : planes) {
           const Diffracted d = diffract(plane, {node.wavelength, sine, p}, kBeyondOblique);
-          for (const LatticeOrder& o : d.reflected) {
-            sum += 0.5 * node.weight / static_cast<double>(planes.size()) * o.power *
-                   receptor.accepts(o.sx - sine, o.sy);
-          }
+          for (const LatticeOrder& o : d.reflected)
+            taken +=
+                o.power * receptor.accepts(o.sx - sine, o.sy) / static_cast<double>(planes.size());
         }
+        const OuterFace outer(media_.fill, p, sine);
+        const double below = Column(media_, p, sine, node.wavelength).into_fill(0);
+        sum += 0.5 * node.weight *
+               (outer.reflected() * receptor.accepts(0, 0) + outer.twice(below) * taken);
       }
     }
     return 100 * sum / face_reflection(kGlossStandard, sine);
@@ -129,6 +137,7 @@ class LatticeFace {
   Meters meters_;
   int beyond_;
   bool lines_;
+  std::vector<PhotopicNode> nodes_;  // of gloss
 };
 
 }  // namespace
@@ -161,9 +170,11 @@ Optics lattice_look(const FeatureArray& array, const OpticalMedia& media, const 
   const LatticeFace face(array, media, meters, beyond);
   Optics out;
   out.regime = OpticsRegime::Rigorous;
-  for (const double wavelength : visible_wavelengths())
+  const Light light, followed = light.followed(media.path());
+  for (const double wavelength : followed.wavelengths)
     out.spectrum.push_back(face.along_normal(wavelength));
-  photopic_means(out, {});
+  photopic_means(out, followed);
+  gather_rows(out, light);
   out.gloss_20 = face.gloss_units(20);
   out.gloss = face.gloss_units(60);
   out.gloss_85 = face.gloss_units(85);
