@@ -207,9 +207,15 @@ TEST(OptimiseOfOneRun, AnotherPickNeedsNoNewSearch) {
     if (!f.on_front) continue;
     EXPECT_LE(f.confirmed.values[0], second.finalists[second.best].confirmed.values[0]);
   }
-  EXPECT_EQ(read_design(picked_design_file(folder, "mean")), second.finalists[second.best].design);
-  EXPECT_EQ(read_design(picked_design_file(folder, "")),
-            recommended_design(StudyProblem(run.study), second).design);
+  // In files the title says what the search changed.
+  const auto untitled = [](Design d) {
+    d.title.clear();
+    return d;
+  };
+  EXPECT_EQ(untitled(read_design(picked_design_file(folder, "mean"))),
+            untitled(second.finalists[second.best].design));
+  EXPECT_EQ(untitled(read_design(picked_design_file(folder, ""))),
+            untitled(recommended_design(StudyProblem(run.study), second).design));
   options.pick = "best of all";
   EXPECT_THROW(optimise_to_folder(run.study, options), InputError);
   // Neither a number beyond the front nor an interruption takes what is there.
