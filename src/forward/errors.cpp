@@ -116,10 +116,9 @@ double grid_error(const std::vector<double>& samples) {
   return std::hypot(e.value, e.se);
 }
 
-// Few control skins may agree with the load law by chance: no less than they leave open.
 double method_error(const std::vector<double>& samples) {
   const Estimate e = mean_estimate(samples);
-  return std::max(std::sqrt(std::max(square(e.value) - square(e.se), 0.0)), e.se);
+  return std::sqrt(std::max(square(e.value) - square(e.se), 0.0));
 }
 
 ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity, const Reading& number,
@@ -256,7 +255,8 @@ void state_errors(const ControlRuns& controls, std::size_t m, double resolved, M
     };
     const ControlledChange change = controlled_change(controls, grid_goes, number);
     of_grid.push_back(grid_error(change.grid));
-    of_method.push_back(method_error(change.method));
+    // Few control skins may agree with the load law by chance: no less than they leave open.
+    of_method.push_back(std::max(method_error(change.method), mean_estimate(change.method).se));
     law.push_back((own[i].*quantity.value).value);
     fine.push_back(load_law ? (controls.areas.points[i].*quantity.value).value : law.back());
   }
