@@ -248,13 +248,13 @@ class Fit {
     out_.finger.uncertainty = deviations(out_.fit, options_.note);
     out_.rows = residuals_.rows();
     const std::vector<Estimate> after = residuals_.model(calibration_, out_.fit.values());
-    std::vector<double> residuals(after.size());
-    residuals_.residuals(calibration_, out_.fit.values(), residuals);
-    const std::vector<double> misses = residuals_.misses(std::move(residuals));
+    std::vector<double> misses(after.size());
+    residuals_.answers(after, misses);
+    take_bands_off(misses, residuals_.bands());
     const CommonErrors common = residuals_.common();
     for (std::size_t i = 0; i < after.size(); ++i) {
       out_.rows[i].after = after[i].value;
-      out_.rows[i].miss = misses[i];
+      out_.rows[i].miss = misses[i] / common.deviation(i);
       out_.rows[i].deviation = out_.rows[i].own_deviation() * common.deviation(i);
     }
     std::tie(out_.least_factor, out_.largest_factor) =
