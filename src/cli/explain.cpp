@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,12 +12,14 @@
 #include "base/constants.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "cli/look_time.h"
 #include "cli/scan_options.h"
 #include "design/study.h"
 #include "estimate/belief.h"
 #include "estimate/target.h"
 #include "forward/price.h"
 #include "forward/skips.h"
+#include "geometry/arrays.h"
 #include "geometry/texture.h"
 #include "report/response.h"
 #include "search/levels.h"
@@ -63,10 +66,12 @@ std::string aims_text(const Study& study) {
 }
 
 // What `papilla optimize` would take.
-std::string study_text(const Study& study, const LookTime& look) {
-  const StudyCost cost = study_cost(study);
+std::string study_text(const StudyProblem& problem, const LookTime& look,
+                       const std::vector<std::string>& warnings) {
+  const Study& study = problem.study();
+  const StudyCost cost = study_cost(problem);
   const int processors = processors_for(study);
-  const double clock = search_pace(study) / processors,
+  const double clock = search_pace(problem) / processors,
                looks = look.each * static_cast<double>(cost.looked_at) / processors;
   std::string out =
       aims_text(study) +
@@ -100,7 +105,7 @@ std::string study_text(const Study& study, const LookTime& look) {
   if (study.search.time > 0)
     out += fmt::format("search.time ends it after {}: what follows the search shrinks first\n",
                        duration(study.search.time));
-  for (const std::string& said : unused_of(study)) out += "warning: " + said + "\n";
+  for (const std::string& said : warnings) out += "warning: " + said + "\n";
   return out;
 }
 
@@ -129,18 +134,15 @@ std::string cut_rims(Texture texture) {
   const double depth = *role.depth, angle = *role.wall_angle, radius = *role.edge_radius;
   const double largest = depth / (1 - std::cos(angle));
   if (!(depth > 0) || radius <= largest) return {};
-  // Half-way down, as far inside the edge as the arc and as a wall without one.
-  const double half = 0.5 * depth;
-  const double arc = std::sqrt(half * (2 * radius - half)) - radius * std::tan(0.5 * angle);
-  const double sharp = half / std::tan(angle);
-  const auto width = [&](double inside) { return array->width + (array->deep ? -2 : 2) * inside; };
-  if (std::abs(width(arc) - width(sharp)) <= 0.01 * array->width) return {};
+  const double is = width_at_half_depth(*array, {depth, angle, radius}),
+               sharp = width_at_half_depth(*array, {depth, angle, 0});
+  if (std::abs(is - sharp) <= 0.01 * array->width) return {};
   return fmt::format(
       "rims of {:.4g} nm end at the depth of {:.4g} nm before the wall is {:.4g} deg steep: {} are "
       "{:.3g} um wide half-way down, {:.3g} um with sharp rims; below {:.3g} nm the wall has its "
       "angle",
-      1e9 * radius, 1e9 * depth, angle * 180 / kPi, array->drawn, 1e6 * width(arc),
-      1e6 * width(sharp), 1e9 * largest);
+      1e9 * radius, 1e9 * depth, angle * 180 / kPi, array->drawn, 1e6 * is, 1e6 * sharp,
+      1e9 * largest);
 }
 
 // Of a texture, or of each part of it by its section: "texture.parts.1: rims of ...".
@@ -166,7 +168,14 @@ int explain(const Context& context, const DesignOptions& options, bool measure) 
   const TargetOptions target{.target = design.accuracy.target,
                              .droplet_seeds = design.accuracy.droplet_seeds};
   const Fidelity fidelity = target.target > 0 ? pilot_fidelity(target) : fidelity_of(design);
-  LookTime look{look_theory(study)};
+  std::optional<StudyProblem> problem;
+  std::vector<std::string> warnings = unused_of(study);
+  LookTime look;
+  if (study.is_study()) {
+    problem.emplace(study);
+    for (std::string& said : study_warnings(*problem)) warnings.push_back(std::move(said));
+    look.theory = look_theory(*problem);
+  }
   Plan plan = measure ? measured_plan(scene_of(design), design.texture, fidelity)
                       : make_plan(scene_of(design), design.texture, fidelity);
   if (!look.theory.empty()) plan = with_look(std::move(plan), look.theory);
@@ -174,13 +183,7 @@ int explain(const Context& context, const DesignOptions& options, bool measure) 
     std::cout << plan_document(plan) << '\n';
     return kSuccess;
   }
-  if (!look.theory.empty()) {
-    if (look.theory == text(OpticsRegime::Rigorous))
-      context.note(fmt::format(
-          "timing the look of this design by the theory \"{}\", which may take half a minute",
-          look.theory));
-    look.each = look_price(study);
-  }
+  if (problem) look.each = timed_look(context, *problem);
   std::string text = (design.title.empty() ? study.name : design.title) + '\n';
   if (target.target > 0) {
     text += fmt::format(
@@ -198,7 +201,7 @@ int explain(const Context& context, const DesignOptions& options, bool measure) 
     text += "warning: " + rims + '\n';
   if (const std::string why = frequency_not_felt(design); design.drive.driven() && !why.empty())
     text += "frequency not felt: " + why + '\n';
-  if (study.is_study()) text += study_text(study, look);
+  if (problem) text += study_text(*problem, look, warnings);
   context.print(text);
   return kSuccess;
 }

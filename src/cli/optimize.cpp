@@ -13,6 +13,7 @@
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/look_time.h"
 #include "cli/scan_options.h"
 #include "optim/mpi.h"
 #include "optim/search.h"
@@ -28,7 +29,7 @@ namespace {
 struct OptimizeOptions {
   std::string study, out, time, method, pick;
   std::vector<std::string> overrides;
-  bool resume = false, finish = false, json = false;
+  bool resume = false, finish = false, force = false, json = false;
   int jobs = 0, evaluations = 0, seed = -1;
 };
 
@@ -150,6 +151,7 @@ std::string resume_command(const OptimizeOptions& options, const std::string& fo
     if (!value.empty()) out += std::string(" ") + name + " " + shell_word(value);
   };
   if (options.finish) out += " --finish";
+  if (options.force) out += " --force";
   if (options.jobs > 0) add("--jobs", std::to_string(options.jobs));
   if (options.evaluations > 0) add("--evaluations", std::to_string(options.evaluations));
   add("--time", options.time);
@@ -162,11 +164,13 @@ std::string resume_command(const OptimizeOptions& options, const std::string& fo
 
 // What the search will take: its price at the machine's pace, over as many tasks as are evaluated
 // at a time.
-std::string price_text(const Study& study) {
-  const StudyCost cost = study_cost(study);
+std::string price_text(const Context& context, const StudyProblem& problem) {
+  const Study& study = problem.study();
+  const StudyCost cost = study_cost(problem);
   const int processors = processors_for(study);
-  const double seconds = search_pace(study) * cost.seconds / processors,
-               looks = look_price(study) * static_cast<double>(cost.looked_at) / processors;
+  const double seconds = search_pace(problem) * cost.seconds / processors,
+               looks =
+                   timed_look(context, problem) * static_cast<double>(cost.looked_at) / processors;
   std::string out =
       fmt::format("expected: {} to {} on {}, for {}", duration(kLeastOfPrice * seconds + looks),
                   duration(kMostOfPrice * seconds + looks), counted(processors, "processor"),
@@ -200,6 +204,7 @@ std::vector<std::string> all_overrides(const OptimizeOptions& options) {
 }
 
 int optimize(const OptimizeOptions& options, const Context& context) {
+  const auto begin = std::chrono::steady_clock::now();
   if (launched_rank() > 0) {  // of an MPI job: one voice is enough
     [[maybe_unused]] const auto* out = std::freopen("/dev/null", "w", stdout);
     [[maybe_unused]] const auto* err = std::freopen("/dev/null", "w", stderr);
@@ -221,17 +226,20 @@ int optimize(const OptimizeOptions& options, const Context& context) {
   ProgressPrinter printer(context);
   run.progress = [&](const Progress& p) { printer.show(p); };
 
+  const StudyProblem problem(study);
+  if (!options.force) require_fitted_fingers(problem, options.study, "run with --force");
   context.note(
       "search: many designs quickly; narrow: the best and their neighbours again, more precisely; "
       "confirm: the finalists at the study's accuracy; belief: what is not known of finger and "
       "model; check: without texture, other models, tolerances");
-  const StudyProblem problem(study);
   if (!run.resume) {
-    if (const auto wrong = problem.constraints().contradiction(); wrong && wrong->flat_keeps)
-      context.note("warning: " + wrong->text + "; only the flat surface is left");
-    if (!context.quiet) context.note(price_text(study));
+    for (const std::string& said : study_warnings(problem)) context.note("warning: " + said);
+    if (!context.quiet) context.note(price_text(context, problem));
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  run.spent = seconds();
   const OptimiseResult result = optimise_to_folder(study, run);
   if (launched_rank() > 0) return kSuccess;
   printer.finish();
@@ -260,8 +268,6 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     for (const std::string& remark : run_remarks(study, problem, result))
       context.note("warning: " + remark);
   }
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (result.interrupted) {
     context.note("interrupted; continue with: " + resume_command(options, run.folder));
     return interrupt.status();
@@ -272,7 +278,7 @@ int optimize(const OptimizeOptions& options, const Context& context) {
           ? "report.html, summary.md, pareto.csv, best/ is what comes nearest to the limits"
           : "summary.md, pareto.csv, history.csv";
   context.note(fmt::format("{} in {:.0f} s; results in {}/ ({})",
-                           counted(result.evaluations, "evaluation"), seconds, run.folder, best));
+                           counted(result.evaluations, "evaluation"), seconds(), run.folder, best));
   if (!result.any_feasible) {
     context.note(result.finalists.empty()
                      ? "no design could be evaluated; history.csv says why for each"
@@ -307,9 +313,11 @@ void add_optimize(Command app, Context& context) {
                      "auto, bayesian, nsga2, cmaes, bobyqa, sbplx, direct, least_squares");
   add_pick_option(command, options->pick);
   add_set_option(command, options->overrides);
+  command.add_flag("--force", options->force,
+                   "Search with model options that the finger was not fitted with");
   command.add_flag("--json", options->json, "The result as one JSON object on standard output");
   command.document(
-      {"A study is a design with a section [design_space]: which numbers, kinds and fingers may "
+      {"A study is a design with a section [design_space]: which numbers and kinds may "
        "change, what is wanted and what has to hold. The search evaluates designs, confirms the "
        "best "
        "on skins that it has not seen, checks whether their order holds under other fingers, airs "

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "base/units.h"
@@ -93,11 +94,25 @@ void read_excluded(StudyFile& file, const NumberField& field, const Node& list,
   }
 }
 
+// Numbers of what no fab makes: who touches, in which air, and how that is calculated.
+bool is_built(const std::string& path) {
+  constexpr std::array kOthers{"finger.", "environment.", "model.", "accuracy."};
+  return std::none_of(kOthers.begin(), kOthers.end(),
+                      [&](const char* section) { return path.starts_with(section); });
+}
+
 // Bounds [low, high] of a number, what is excluded between them, or its choices.
 void read_variable(StudyFile& file, const std::string& path, const Node& node) {
   const std::string where = "design_space." + path;
   const NumberField* field = file.numbers.find(path, node, "design_space");
   if (!field) return;
+  if (!is_built(path)) {
+    file.document.problem(node.key_place, where,
+                          "is nothing that is built, so that no search chooses it: say which "
+                          "fingers count in [population], which states in [[scenarios]], anything "
+                          "else in its own section");
+    return;
+  }
   Variable variable{path, field->unit, 0, 0, {}, {}};
   const Node* choice = node.is_table() ? node.find("choice") : nullptr;
   const Node* range = node.is_table() ? node.find("range") : nullptr;

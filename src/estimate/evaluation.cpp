@@ -1,5 +1,7 @@
 #include "estimate/evaluation.h"
 
+#include <set>
+
 #include "base/error.h"
 #include "estimate/belief.h"
 #include "estimate/parameters.h"
@@ -43,9 +45,17 @@ void add_pull_in(Response& response, const Scene& scene, const Texture& texture,
 
 void require_fitted_model(const Design& design, const std::string& file,
                           const std::string& way_out) {
+  require_fitted_model(std::vector{design}, file, way_out);
+}
+
+void require_fitted_model(const std::vector<Design>& designs, const std::string& file,
+                          const std::string& way_out) {
   std::vector<Problem> problems;
-  for (const std::string& line : calibration_mismatch(design))
-    problems.push_back({file, 0, 0, "", line});
+  std::set<std::string> told;
+  for (const Design& design : designs) {
+    for (const std::string& line : calibration_mismatch(design))
+      if (told.insert(line).second) problems.push_back({file, 0, 0, "", line});
+  }
   if (problems.empty()) return;
   problems.push_back({"", 0, 0, "",
                       "such a change moves the modulation by tens of percent; fit the finger "

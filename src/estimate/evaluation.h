@@ -32,5 +32,8 @@ void add_pull_in(Response& response, const Scene& scene, const Texture& texture,
 // change moves the modulation by tens of percent. way_out: "run with --force".
 void require_fitted_model(const Design& design, const std::string& file,
                           const std::string& way_out);
+// The same of several, as of one design under the fingers of a study: each difference once.
+void require_fitted_model(const std::vector<Design>& designs, const std::string& file,
+                          const std::string& way_out);
 
 }  // namespace papilla::estimate

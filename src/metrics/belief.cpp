@@ -1,7 +1,6 @@
 // Numbers over the members of a belief. Eq. accuracy.15
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "metrics/metrics.h"
@@ -10,13 +9,8 @@
 namespace papilla::metrics {
 namespace {
 
-// A number of a run, and without each skin.
-struct Readings {
-  double all = 0;
-  std::vector<double> without;
-};
-std::optional<Readings> readings(const Resampled& run, const Number& number) {
-  Readings out;
+std::optional<RunReading> reading(const Resampled& run, const Number& number) {
+  RunReading out;
   const auto all = number(run.points);
   if (!all || !std::isfinite(*all)) return std::nullopt;
   out.all = *all;
@@ -30,9 +24,7 @@ std::optional<Readings> readings(const Resampled& run, const Number& number) {
 
 // The values less what of their distance from their mean is scatter of the skins. Eq. accuracy.18
 std::vector<double> meant(const BeliefValues& belief) {
-  const std::vector<double>& w = belief.weights;
-  const double total = std::accumulate(w.begin(), w.end(), 0.0),
-               mean = std::inner_product(w.begin(), w.end(), belief.values.begin(), 0.0) / total;
+  const double mean = weighted_mean(belief.values, belief.weights);
   const double part = meant_part(belief.moves);
   std::vector<double> out = belief.values;
   for (double& v : out) v = mean + part * (v - mean);
@@ -60,26 +52,40 @@ double BeliefValues::quantile(double p) const {
   return weighted_quantile(meant(*this), weights, p);
 }
 
-std::optional<BeliefValues> belief_values(const BeliefRuns& runs, const Number& number,
-                                          std::optional<double> value, bool keeps_sign) {
+std::optional<MemberReadings> member_readings(const BeliefRuns& runs, const Number& number) {
   if (runs.members.empty()) return std::nullopt;
-  const auto own = readings(runs.own, number);
+  auto own = reading(runs.own, number);
   if (!own) return std::nullopt;
-  const double at = value.value_or(own->all);
-  BeliefValues out;
-  StepSamples samples;
+  MemberReadings out{{}, {}, *std::move(own)};
   for (const BeliefRun& m : runs.members) {
-    const auto there = readings(m.run, number);
-    if (!there || there->without.size() != own->without.size()) return std::nullopt;
-    std::vector<double> without;
-    for (std::size_t k = 0; k < own->without.size(); ++k)
-      without.push_back(moved(at, own->without[k], there->without[k], keeps_sign));
+    auto there = reading(m.run, number);
+    if (!there || there->without.size() != out.own.without.size()) return std::nullopt;
     out.weights.push_back(m.weight);
-    out.values.push_back(moved(at, own->all, there->all, keeps_sign));
+    out.members.push_back(*std::move(there));
+  }
+  return out;
+}
+
+BeliefValues belief_values(const MemberReadings& readings, double value, bool keeps_sign) {
+  const RunReading& own = readings.own;
+  BeliefValues out{readings.weights, {}, {}};
+  StepSamples samples;
+  for (const RunReading& there : readings.members) {
+    std::vector<double> without;
+    for (std::size_t k = 0; k < own.without.size(); ++k)
+      without.push_back(moved(value, own.without[k], there.without[k], keeps_sign));
+    out.values.push_back(moved(value, own.all, there.all, keeps_sign));
     samples.push_back(jackknife_samples(out.values.back(), without));
   }
   out.moves = moves_from_mean(out.weights, std::move(samples));
   return out;
+}
+
+std::optional<BeliefValues> belief_values(const BeliefRuns& runs, const Number& number,
+                                          std::optional<double> value, bool keeps_sign) {
+  const auto readings = member_readings(runs, number);
+  if (!readings) return std::nullopt;
+  return belief_values(*readings, value.value_or(readings->own.all), keeps_sign);
 }
 
 std::optional<BeliefValues> belief_values(Summary summary, const Metric& metric,
@@ -127,10 +133,14 @@ std::optional<BeliefDifference> belief_difference(const BeliefValues& first,
   return out;
 }
 
-std::optional<StepSamples> model_samples(const Response& response, const Number& number) {
-  if (response.belief.members.empty()) return step_samples(response.parameters.steps, number);
-  const auto values = belief_values(response.belief, number, std::nullopt, false);
-  return values ? std::optional(values->moves) : std::nullopt;
+StepSamples ModelReadings::moves(double value, bool keeps_sign) const {
+  return belief.members.empty() ? steps : belief_values(belief, value, keeps_sign).moves;
+}
+
+ModelReadings model_readings(const Response& response, const Number& number) {
+  if (response.belief.members.empty())
+    return {step_samples(response.parameters.steps, number).value_or(StepSamples{}), {}};
+  return {{}, member_readings(response.belief, number).value_or(MemberReadings{})};
 }
 
 }  // namespace papilla::metrics

@@ -117,7 +117,8 @@ const std::vector<Row>& rows() {
                "weathers that feel the effect",
         .better = Better::Higher,
         .needs_drive = true,
-        .takes_modulation = true}},
+        .takes_modulation = true,
+        .resolution = 0.01}},  // a choice: one of a hundred people
       {PullInMargin{},
        {"pull_in_margin", "",
         "voltage at which the gap jumps shut over that of the drive; 4 where it is farther",

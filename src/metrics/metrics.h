@@ -69,6 +69,25 @@ struct BeliefValues {
 // Whether a number that a member moves cannot change its sign: a size, or a spread.
 bool keeps_sign(Summary summary, const Metric& metric);
 using Number = std::function<std::optional<double>(const std::vector<ResponsePoint>&)>;
+// A number of a run, and without each of its skins.
+struct RunReading {
+  double all = 0;
+  std::vector<double> without;
+
+  bool operator==(const RunReading&) const = default;
+};
+// A number at each member of a belief and of the scene as it is, all on the same few skins.
+struct MemberReadings {
+  std::vector<double> weights;  // one per member
+  std::vector<RunReading> members;
+  RunReading own;
+
+  bool operator==(const MemberReadings&) const = default;
+};
+// Nothing where a run has no number.
+std::optional<MemberReadings> member_readings(const BeliefRuns& runs, const Number& number);
+// Moved so from `value`.
+BeliefValues belief_values(const MemberReadings& readings, double value, bool keeps_sign);
 // value: of the response; nothing: of the runs themselves. Nothing where a member has no number.
 std::optional<BeliefValues> belief_values(const BeliefRuns& runs, const Number& number,
                                           std::optional<double> value, bool keeps_sign);
@@ -85,8 +104,17 @@ struct BeliefDifference {
 };
 std::optional<BeliefDifference> belief_difference(const BeliefValues& first,
                                                   const BeliefValues& second);
-// The moves of a number over belief, else over the steps of the finger's parameters.
-std::optional<StepSamples> model_samples(const Response& response, const Number& number);
+// What is not known of finger and model of a number: over the members of a belief, or over the
+// steps of the finger's parameters. Both are empty where the number is not defined somewhere.
+struct ModelReadings {
+  StepSamples steps;
+  MemberReadings belief;
+
+  // Of the number where it is `value`.
+  StepSamples moves(double value, bool keeps_sign) const;
+  bool operator==(const ModelReadings&) const = default;
+};
+ModelReadings model_readings(const Response& response, const Number& number);
 
 // What the correction to the 3-D field leaves open of a value, in its unit: what a stronger pull
 // moves it by, below 0 where it falls. Zeros where there is none.

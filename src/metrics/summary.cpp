@@ -87,14 +87,15 @@ FieldPart field_part(Summary summary, const Metric& metric, std::span<const Resp
     const VoltageAnswer* voltage = voltage_answer(metric, point);
     const double error = (voltage ? voltage->field_error : point.field_error).value_or(0),
                  field = m->parts.field.value_or(0);
-    const double share = error > 0 ? std::min(1.0, kOfFullField / error) : 1;
+    const double correction = voltage ? voltage->field_correction : point.field_correction;
+    const double share =
+        error > 0 ? std::min(1.0, forward::full_field_error(correction) / error) : 1;
     values.push_back(m->value);
     weights.push_back(point.weight);
     common.push_back(sign * share * field);
     own.push_back(std::sqrt(1 - square(share)) * field);
     if (field == 0) continue;  // nothing pulls there, or no field is part of it
-    out.corrections.push_back(
-        std::log(voltage ? voltage->field_correction : point.field_correction));
+    out.corrections.push_back(std::log(correction));
     squares += (1 - square(share)) * square(error);
   }
   const Series series(values, weights, info_of(metric).better);

@@ -1,5 +1,8 @@
 #include "search/advice.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace papilla::search {
 namespace {
 
@@ -27,20 +30,27 @@ FinalDesign best_without_texture(const StudyProblem& problem, const OptimiseResu
 }
 
 FinalDesign own_without_texture(const StudyProblem& problem, const OptimiseResult& r) {
-  return flat_surface(problem, problem.space().own_surface(), *r.flat_before);
+  return flat_surface(problem, problem.space().with_own_finish(best_of(r).unit), *r.flat_before);
 }
 
 }  // namespace
 
-std::vector<std::size_t> changed_finish(const StudyProblem& problem, const OptimiseResult& r) {
-  const std::vector<double>& own = problem.space().own_values();
-  const std::vector<double> best = problem.space().value(best_of(r).unit);
+std::vector<std::size_t> finish_apart(const StudyProblem& problem, const Point& a, const Point& b) {
+  const std::vector<double> one = problem.space().value(a), other = problem.space().value(b);
   std::vector<std::size_t> out;
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    if (!problem.study().variables[k].path.starts_with("texture.") && own[k] != best[k])
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    // By more than the rounding of a value to the unit interval and back.
+    const double rounding = kLimitTolerance * std::max(std::abs(one[k]), std::abs(other[k]));
+    if (!problem.study().variables[k].path.starts_with("texture.") &&
+        std::abs(one[k] - other[k]) > rounding)
       out.push_back(k);
   }
   return out;
+}
+
+std::vector<std::size_t> changed_finish(const StudyProblem& problem, const OptimiseResult& r) {
+  const Point& best = best_of(r).unit;
+  return finish_apart(problem, problem.space().with_own_finish(best), best);
 }
 
 std::vector<LimitValue> broken_without_texture(const StudyProblem& problem,
@@ -99,15 +109,27 @@ std::optional<Score> worth_on_grid(const StudyProblem& problem, const OptimiseRe
   return r.build->made.confirmed;
 }
 
-std::optional<std::size_t> best_flat(const StudyProblem& problem, const OptimiseResult& r) {
-  std::optional<std::size_t> out;
-  const bool maximise = problem.objectives().front().maximise;
-  for (std::size_t i = 0; i < r.finalists.size(); ++i) {
-    const FinalDesign& f = r.finalists[i];
-    if (!f.feasible || facts(f.design.texture).relief.present) continue;
-    const double gain = out ? f.confirmed.values[0] - r.finalists[*out].confirmed.values[0] : 0;
-    if (!out || (maximise ? gain > 0 : gain < 0)) out = i;
+std::optional<FinalDesign> best_flat(const StudyProblem& problem, const OptimiseResult& r) {
+  std::vector<FinalDesign> flat;
+  if (r.flat) flat.push_back(best_without_texture(problem, r));
+  if (r.flat_before) flat.push_back(own_without_texture(problem, r));
+  // A finalist that is one of these has numbers of another patch: one surface has one number.
+  for (const FinalDesign& f : r.finalists) {
+    const auto same = [&](const FinalDesign& other) {
+      return finish_apart(problem, other.unit, f.unit).empty();
+    };
+    if (!facts(f.design.texture).relief.present && std::none_of(flat.begin(), flat.end(), same))
+      flat.push_back(f);
   }
+  std::erase_if(flat, [](const FinalDesign& f) { return !f.feasible; });
+  if (flat.empty()) return std::nullopt;
+  const bool maximise = problem.objectives().front().maximise;
+  FinalDesign out =
+      *std::min_element(flat.begin(), flat.end(), [&](const FinalDesign& a, const FinalDesign& b) {
+        const double gain = a.confirmed.values[0] - b.confirmed.values[0];
+        return maximise ? gain > 0 : gain < 0;
+      });
+  if (finish_apart(problem, out.unit, best_of(r).unit).empty()) return std::nullopt;
   return out;
 }
 

@@ -29,17 +29,17 @@ void judge_members(Run& run, FinalDesign& f) {
 
 }  // namespace
 
-std::size_t believed(const StudyProblem& problem, const OptimiseResult& result) {
-  if (!problem.belief()) return 0;
-  if (result.finalists.empty()) return kFinalists + 1;
+std::size_t believed(const Run& run) {
+  if (!run.problem.belief()) return 0;
+  if (run.result.finalists.empty()) return most_finalists(run.search);
   std::size_t out = 0;
-  for (const FinalDesign& f : result.finalists) out += f.feasible;
+  for (const FinalDesign& f : run.result.finalists) out += f.feasible;
   return out;
 }
 
 void judge_belief(Run& run) {
   OptimiseResult& result = run.result;
-  const std::size_t count = believed(run.problem, result);
+  const std::size_t count = believed(run);
   const auto seconds = [&](std::size_t designs) {
     return run.seconds_of(designs * run.problem.nominal_tasks(), Stage::Belief);
   };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "optim/gaussian_process.h"
+#include "search/advice.h"
 #include "search/rounding.h"
 
 namespace papilla::search {
@@ -235,8 +236,9 @@ class Building {
 }  // namespace
 
 BuiltDesign built_of(Run& run, const FinalDesign& recommended) {
-  // The study's own surface beside the space stays as its file says.
-  const bool moves = run.study.search.rounding > 0 && !recommended.unit.empty();
+  // The study's own surface stays as its file says: nothing of it was searched.
+  const bool moves =
+      run.study.search.rounding > 0 && advice_of(run.problem, run.result) != Advice::LeaveFlat;
   return moves ? Building(run, recommended).find() : BuiltDesign{recommended, false};
 }
 

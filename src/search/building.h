@@ -12,8 +12,8 @@ namespace papilla::search {
 // where these keep not every limit.
 inline constexpr std::size_t kJudgedOnGrid = 3, kMostJudgedOnGrid = 6;
 
-// The recommended design itself without a grid, and where no design of the grid that was judged
-// keeps every limit while it does.
+// The recommended design itself without a grid, where it is the study's own surface without a
+// texture, and where no design of the grid that was judged keeps every limit while it does.
 BuiltDesign built_of(Run& run, const FinalDesign& recommended);
 
 }  // namespace papilla::search

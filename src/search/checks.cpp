@@ -68,7 +68,9 @@ void pick(Run& run) {
 }
 
 // What of the gain is the texture's and what the finish's: the best surface without its texture,
-// where there is one, and the study's own surface without texture where the search changed more.
+// where there is one, and that with the finish and drive of the study where the search changed
+// them. Both keep the patch and skins of the best texture: flat glass on another patch differs by
+// what its skins scatter.
 void compare_with_flat(Run& run) {
   const auto keep = [&](std::optional<Score>& answered, std::optional<Score>& unanswered,
                         const Point& unit) {
@@ -86,7 +88,7 @@ void compare_with_flat(Run& run) {
   if (!finish_differs) return;
   if (!textured || run.goes_on(Stage::Confirm, true, seconds))
     keep(run.result.flat_before, run.result.flat_before_unanswered,
-         run.problem.space().own_surface());
+         run.problem.space().with_own_finish(best.unit));
   else
     run.cut(RunPart::Flat, 1, 2);
 }
@@ -100,9 +102,11 @@ void find_sensitivity(Run& run, const FinalDesign& made) {
     return;
   std::vector<Point> points{made.unit};
   for (const SensitivityMove& move : moves) points.push_back(move.unit);
-  const std::vector<Score> scores = run.replay.scores(points, Stage::Sensitivity, made.flat);
-  run.result.sensitivity =
-      sensitivity(run.problem, centre, moves, scores.front(), {scores.begin() + 1, scores.end()});
+  std::vector<Score> moved = run.replay.scores(points, Stage::Sensitivity, made.flat);
+  Score at_centre = std::move(moved.front());
+  moved.erase(moved.begin());
+  if (made.confirmed.ok) set_confirmed_limits(run.problem, made.confirmed, at_centre, moved);
+  run.result.sensitivity = sensitivity(run.problem, centre, moves, at_centre, moved);
 }
 
 // What is not known of fingers and model. Eq. accuracy.12, accuracy.15

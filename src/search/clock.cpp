@@ -22,7 +22,7 @@ double part_deadline(double limit, RunPart part, const PartSeconds& wanted) {
 }
 
 double RunClock::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  return spent_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
 double RunClock::left(const PartSeconds& wanted) const {

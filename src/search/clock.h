@@ -36,9 +36,10 @@ double part_deadline(double limit, RunPart part, const PartSeconds& wanted);
 
 class RunClock {
  public:
-  explicit RunClock(double limit) : limit_(limit) {}  // [s]; 0: none
+  // limit: 0: none; spent: of it, before the run began [s].
+  explicit RunClock(double limit, double spent = 0) : spent_(spent), limit_(limit) {}
 
-  double seconds() const;  // since the run began
+  double seconds() const;  // since the run began, and what was spent before
   bool limited() const { return limit_ > 0; }
   void enter(RunPart part) { part_ = part; }
   // Seconds that the present part may still take; infinite without a limit.
@@ -46,7 +47,7 @@ class RunClock {
 
  private:
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double limit_ = 0;
+  double spent_ = 0, limit_ = 0;
   RunPart part_ = RunPart::Search;
 };
 

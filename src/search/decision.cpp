@@ -21,7 +21,7 @@ TaskAnswer moved_answer(const StudyGoals& goals, const TaskAnswer& confirmed, co
   if (!there.status.ok()) return there;
   TaskAnswer out = confirmed;
   out.samples.clear();
-  out.steps.clear();
+  out.model.clear();
   for (std::size_t k = 0; k < goals.objectives.size(); ++k) {
     const StudyObjective& o = goals.objectives[k];
     TaskObjective& number = out.objectives[k];
@@ -117,13 +117,16 @@ bool beats(const StudyProblem& problem, const FinalDesign& a, const Score& of_a,
   return !problem.judged_at_amplitude() || of_a.worst > of_b.worst;
 }
 
-// The same at a member. in: worth by everything that designs are compared in.
-bool beats_there(const std::vector<MemberWorth>& in, std::size_t a, std::size_t b, std::size_t m) {
+// Whether b is better than a at a member in something that designs are compared in, or keeps limits
+// that a breaks there. Where neither has an answer the member tells them not apart, Eq. search.15.
+// in: worth by everything that designs are compared in.
+bool holds_against(const std::vector<MemberWorth>& in, std::size_t b, std::size_t a,
+                   std::size_t m) {
   const auto known = [&](std::size_t i) { return !std::isnan(in.front().worth[i][m]); };
-  if (!known(a) || !known(b)) return known(a);
-  if (!in.front().keeps(a, m) && in.front().keeps(b, m)) return false;
-  return std::all_of(in.begin(), in.end(),
-                     [&](const MemberWorth& of) { return of.worth[a][m] > of.worth[b][m]; });
+  if (!known(a) || !known(b)) return known(b);
+  if (!in.front().keeps(a, m) && in.front().keeps(b, m)) return true;
+  return std::any_of(in.begin(), in.end(),
+                     [&](const MemberWorth& of) { return of.worth[a][m] <= of.worth[b][m]; });
 }
 
 std::vector<MemberGroup> hypotheses_of(const Belief& belief) {
@@ -335,7 +338,7 @@ std::vector<bool> on_front_of_belief(const StudyProblem& problem,
   const auto beaten_by = [&](std::size_t b, std::size_t a) {
     if (!beats(problem, asked[a], asked[a].confirmed, asked[b], asked[b].confirmed)) return false;
     for (std::size_t m = 0; m < worth.front().weights.size(); ++m) {
-      if (!beats_there(worth, a, b, m)) return false;
+      if (holds_against(worth, b, a, m)) return false;
     }
     return true;
   };

@@ -51,8 +51,8 @@ void add_members(const StudyProblem& problem, const std::vector<TaskAnswer>& ans
 
 // Whether no other of the finalists is better in every objective and, where designs are judged at
 // the study's own amplitude, in the worst modulation by the confirmed numbers and by what it is
-// worth at every member of belief. A finalist without members stays where its confirmed numbers
-// put it: nothing else is known of it.
+// worth at every member of belief at which one of both has an answer. A finalist without members
+// stays where its confirmed numbers put it: nothing else is known of it.
 std::vector<bool> on_front_of_belief(const StudyProblem& problem,
                                      const std::vector<FinalDesign>& finalists);
 

@@ -77,6 +77,7 @@ std::vector<AtBound> variables_at_bound(const StudyProblem& problem, const Point
   const std::vector<NumberField> known = number_fields(own);
   std::vector<AtBound> out;
   for (std::size_t k = 0; k < best.size(); ++k) {
+    if (best[k] == DesignSpace::kBeside) continue;
     const Variable& variable = study.variables[k];
     const bool upper = best[k] >= 1 - kAtBound;
     if (!problem.space().cube().dimensions[k].choices.empty() || variable.high <= variable.low ||

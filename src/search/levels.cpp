@@ -177,9 +177,9 @@ Fidelity stage_fidelity(const StudyProblem& problem, Stage stage, double most_se
   return f;
 }
 
-std::size_t designs_with_model_part(const StudyProblem& problem) {
+std::size_t designs_with_model_part(const StudyProblem& problem, const SearchProblem& search) {
   if (problem.belief()) return 1;
-  return problem.has_belief() ? kFinalists + 1 : 2;
+  return problem.has_belief() ? most_finalists(search) : 2;
 }
 
 Fidelity steps_fidelity(const StudyProblem& problem, Fidelity confirmed) {
@@ -195,6 +195,10 @@ std::size_t narrowings(const SearchProblem& p) {
   if (p.objectives > 2 || p.space.single_point()) return 0;
   return static_cast<std::size_t>(
       std::min(kMostNarrowings, p.evaluations / kEvaluationsPerNarrowing));
+}
+
+std::size_t most_finalists(const SearchProblem& p) {
+  return std::min(kFinalists, static_cast<std::size_t>(p.evaluations)) + 1;
 }
 
 double task_price(const StudyProblem& problem, Stage stage, double most_seconds) {
@@ -234,22 +238,22 @@ int processors_for(const Study& study) {
   return study.search.jobs > 0 ? std::min(study.search.jobs, processors) : processors;
 }
 
-double search_pace(const Study& study) {
-  const StudyProblem problem(study);
+double search_pace(const StudyProblem& problem) {
+  const Study& study = problem.study();
   std::vector<Scene> scenes;
   for (std::size_t t = 0; t < problem.nominal_tasks(); ++t)
     scenes.push_back(scene_of(task_design(study, study.design, problem.tasks()[t])));
   return machine_pace(scenes, study.design.texture, stage_fidelity(problem, Stage::Search));
 }
 
-StudyCost study_cost(const Study& study) {
-  const StudyProblem problem(study);
+StudyCost study_cost(const StudyProblem& problem) {
+  const Study& study = problem.study();
   const SearchProblem search = search_problem(problem);
   StudyCost out;
   out.evaluations = search.evaluations;
   out.tasks = static_cast<int>(problem.tasks().size());
   out.narrowed = narrowings(search);
-  out.finalists = kFinalists + 1;
+  out.finalists = most_finalists(search);
   if (YieldModel::exists(study)) out.plates = plates_of(study, true);
   const auto price = [&](std::size_t tasks, Stage stage) {
     return static_cast<double>(tasks) * over_price(stage) * task_price(problem, stage);
@@ -259,10 +263,11 @@ StudyCost study_cost(const Study& study) {
                 price(out.narrowed * tasks, Stage::Narrow) +
                 // Finalists, the surface without texture twice, designs of the fab's grid.
                 price((out.finalists + 2 + kJudgedOnGrid) * tasks, Stage::Confirm) +
-                price(kFinalists * stability_variants(problem).size(), Stage::Stability) +
+                price((out.finalists - 1) * stability_variants(problem).size(), Stage::Stability) +
                 price((1 + 2 * variables) * tasks, Stage::Sensitivity);
   if (problem.parameters_unknown().empty())
-    out.seconds += price(designs_with_model_part(problem) * problem.nominal_tasks(), Stage::Steps);
+    out.seconds +=
+        price(designs_with_model_part(problem, search) * problem.nominal_tasks(), Stage::Steps);
   if (problem.belief()) {
     out.members = problem.belief()->members.size();
     out.belief_seconds = price(out.finalists * problem.nominal_tasks(), Stage::Belief);
@@ -287,25 +292,23 @@ StudyCost study_cost(const Study& study) {
 namespace {
 
 // The study's own design in each scenario; none where no metric and no limit asks for looks.
-std::vector<Design> own_looks(const Study& study) {
-  if (!study.is_study()) return {};
-  const StudyProblem problem(study);
+std::vector<Design> own_looks(const StudyProblem& problem) {
   if (!problem.goals().looks) return {};
-  return problem.constraints().looked_at(study.design);
+  return problem.constraints().looked_at(problem.study().design);
 }
 
 }  // namespace
 
-std::string look_theory(const Study& study) {
-  const std::vector<Design> seen = own_looks(study);
+std::string look_theory(const StudyProblem& problem) {
+  const std::vector<Design> seen = own_looks(problem);
   if (seen.empty()) return {};
   const Design& first = seen.front();
   return optics_theory(first.texture, first.surface, first.view);
 }
 
-double look_price(const Study& study) {
+double look_price(const StudyProblem& problem) {
   double out = 0;
-  for (const Design& d : own_looks(study)) out += work_seconds([&] { appearance_of(d); });
+  for (const Design& d : own_looks(problem)) out += work_seconds([&] { appearance_of(d); });
   return out;
 }
 
@@ -328,8 +331,9 @@ std::string search_plan(const StudyProblem& problem) {
                        narrowings(search)) +
            level(Stage::Narrow);
   }
-  out += fmt::format("\nconfirmation of up to {} finalists, fresh skins:\n", kFinalists + 1) +
-         level(Stage::Confirm);
+  out +=
+      fmt::format("\nconfirmation of up to {} finalists, fresh skins:\n", most_finalists(search)) +
+      level(Stage::Confirm);
   if (problem.belief()) {
     const ModelCost cost = steps_cost(problem, stage_fidelity(problem, Stage::Belief));
     out += fmt::format(

@@ -9,11 +9,13 @@
 #include <memory>
 
 #include "base/digest.h"
+#include "base/error.h"
 #include "base/files.h"
 #include "base/random.h"
 #include "config/writer.h"
 #include "design/design.h"
 #include "estimate/belief.h"
+#include "estimate/evaluation.h"
 #include "geometry/io/files.h"
 #include "search/protocol.h"
 
@@ -192,6 +194,35 @@ std::string StudyProblem::identity() const {
   }
   return out +
          fmt::format("{} {} {}\n", study_.search.method, study_.search.seed, study_.search.drafts);
+}
+
+std::vector<std::string> study_warnings(const StudyProblem& problem) {
+  std::vector<std::string> out;
+  if (const auto wrong = problem.constraints().contradiction()) {
+    if (!wrong->flat_keeps) throw InputError(wrong->text);
+    out.push_back(wrong->text + "; only the flat surface is left");
+  }
+  const std::string absent = problem.belief_absent();
+  if (absent.empty()) return out;
+  // A resolved file states the usual [risk] of every study.
+  if (problem.study().risk != StudyRisk{})
+    throw InputError("risk: no belief decides what to build, as " + absent +
+                     "; or leave [risk] out");
+  const std::vector<StudyTask>& tasks = problem.tasks();
+  if (std::any_of(tasks.begin(), tasks.end(),
+                  [](const StudyTask& t) { return !t.finger.belief.empty(); }))
+    out.push_back("no belief decides what to build, the fit of the fingers does: " + absent);
+  return out;
+}
+
+void require_fitted_fingers(const StudyProblem& problem, const std::string& file,
+                            const std::string& way_out) {
+  std::vector<Design> touched;
+  for (const StudyTask& task : problem.tasks()) {
+    if (task.nominal())
+      touched.push_back(task_design(problem.study(), problem.study().design, task));
+  }
+  require_fitted_model(touched, file, way_out);
 }
 
 int default_evaluations(const Study& study) {

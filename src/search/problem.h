@@ -82,6 +82,16 @@ class StudyProblem {
   double smallest_feature_;
 };
 
+// What a search leaves aside, for people: textures, where only a flat surface keeps the limits on
+// shape and film; belief, where the fingers have none in common. Throws InputError where no design
+// of the space keeps those limits, and where [risk] says how a belief decides that is not there.
+std::vector<std::string> study_warnings(const StudyProblem& problem);
+
+// Throws InputError where a finger of the study was fitted with other model options than those that
+// it is searched with (estimate/evaluation.h). way_out: "run with --force".
+void require_fitted_fingers(const StudyProblem& problem, const std::string& file,
+                            const std::string& way_out);
+
 // Evaluations that a study gets when nothing else is said.
 int default_evaluations(const Study& study);
 

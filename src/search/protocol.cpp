@@ -42,9 +42,21 @@ void members(Codec& c, ErrorSamples& s) {
   code_all(c, s.sampling, s.grid, s.method, s.field);
 }
 template <class Codec>
+void members(Codec& c, RunReading& r) {
+  code_all(c, r.all, r.without);
+}
+template <class Codec>
+void members(Codec& c, MemberReadings& r) {
+  code_all(c, r.weights, r.members, r.own);
+}
+template <class Codec>
+void members(Codec& c, ModelReadings& m) {
+  code_all(c, m.steps, m.belief);
+}
+template <class Codec>
 void members(Codec& c, TaskAnswer& a) {
   code_all(c, a.status, a.objectives, a.worst, a.oxide_margin, a.look, a.limited, a.limited_errors,
-           a.samples, a.worst_samples, a.steps, a.members, a.report);
+           a.samples, a.worst_samples, a.model, a.members, a.report);
 }
 template <class Codec>
 void members(Codec& c, Outcome& o) {

@@ -14,7 +14,7 @@
 namespace papilla::search {
 
 // Raised when the meaning or the order of what is encoded changes: part of the journal's key.
-constexpr int kProtocol = 10;
+constexpr int kProtocol = 11;
 
 // What a design is asked for, each at its level (levels.h).
 enum class Stage {
@@ -38,7 +38,7 @@ struct TaskRequest {
   Stage stage = Stage::Search;
   std::size_t task = 0;  // of the study; of Stability the variant; of Done kSearchExhausted or 0
   bool flat = false;     // the design without its relief
-  Point unit;            // empty: the study's own surface, where that lies outside the space
+  Point unit;
   // What the task may cost, as plans price it [s]: fewer skins and pixels than the stage's where a
   // run is short of time; 0: anything.
   double most_seconds = 0;
@@ -87,8 +87,9 @@ struct TaskAnswer {
   // confirmed tasks and of the members of a belief.
   std::vector<std::vector<ErrorSamples>> samples;
   ErrorSamples worst_samples;
-  // [objective]; empty: not asked for. An objective's own is empty where a step is not defined.
-  std::vector<StepSamples> steps;
+  // [objective]; empty: not asked for. An objective's own is empty where it is not defined at a
+  // step or a member.
+  std::vector<ModelReadings> model;
   // At each member of the finger's belief, last as the finger is, on few skins; empty: not asked
   // for.
   std::vector<TaskAnswer> members;

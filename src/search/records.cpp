@@ -14,9 +14,13 @@ bool finite(const std::vector<double>& values) {
 }
 
 bool possible(const StudyProblem& problem, const SearchProblem& search, const TaskRequest& r) {
-  // The study's own surface may lie outside the space.
-  const bool own = r.stage == Stage::Confirm && r.flat && r.unit == problem.space().own_surface();
-  if (!own && (r.unit.size() != search.space.size() || !finite(r.unit))) return false;
+  if (r.unit.size() != search.space.size()) return false;
+  for (std::size_t i = 0; i < r.unit.size(); ++i) {
+    constexpr double kLastDigits = 1e-9;
+    const bool inside = r.unit[i] >= -kLastDigits && r.unit[i] <= 1 + kLastDigits;
+    if (!inside && !(r.unit[i] == DesignSpace::kBeside && problem.space().own_is_beside(i)))
+      return false;
+  }
   if (!std::isfinite(r.most_seconds) || r.most_seconds < 0) return false;
   if (r.stage == Stage::Done) return r.task <= kSearchExhausted;
   const std::size_t tasks =
@@ -33,13 +37,24 @@ bool possible(const SearchProblem& search, const Judgement& judgement) {
          (search.residuals == 0 || o.residuals.size() == search.residuals) && finite(o.residuals);
 }
 
+bool of_same_skins(const MemberReadings& readings) {
+  return readings.weights.size() == readings.members.size() &&
+         std::all_of(readings.members.begin(), readings.members.end(),
+                     [&](const RunReading& member) {
+                       return member.without.size() == readings.own.without.size();
+                     });
+}
+
 // Each objective with its numbers, in the order of the humidities.
 bool possible(const StudyProblem& problem, Stage stage, const TaskAnswer& a) {
   const StudyGoals& goals = problem.goals();
   const std::size_t count = goals.objectives.size();
   const std::size_t humidities = problem.study().design.environment.relative_humidity.size();
   if (!a.status.ok()) return true;
-  if (!a.steps.empty() && a.steps.size() != count) return false;
+  if (!a.model.empty() && a.model.size() != count) return false;
+  if (!std::all_of(a.model.begin(), a.model.end(),
+                   [](const ModelReadings& m) { return of_same_skins(m.belief); }))
+    return false;
   if (stage == Stage::Steps || stage == Stage::Belief) {
     const auto sound = [&](const TaskAnswer& m) { return possible(problem, Stage::Search, m); };
     return std::all_of(a.members.begin(), a.members.end(), sound);

@@ -41,8 +41,7 @@ std::string checked_folder(const OptimiseOptions& options, const StudyProblem& p
   require_images();
   require_method(method);
   check_pick_rule(options.pick, problem);
-  if (const auto wrong = problem.constraints().contradiction(); wrong && !wrong->flat_keeps)
-    throw InputError(wrong->text);
+  study_warnings(problem);
   if (options.resume && !std::filesystem::exists(options.folder + "/journal"))
     throw InputError(options.folder + ": no run to continue here (no journal)");
   return options.folder;
@@ -161,7 +160,7 @@ void write_files(Run& run, const StageSeconds& at) {
 
 Run::Run(const Study& of, const OptimiseOptions& how, const MpiSession& mpi,
          std::unique_ptr<Team> team)
-    : clock(of.search.time),
+    : clock(of.search.time, how.spent),
       study(of),
       options(how),
       problem(of),
@@ -231,7 +230,7 @@ PartSeconds Run::wanted() const {
     out[static_cast<std::size_t>(part)] = seconds;
   };
   const std::size_t front = result.finalists.empty()
-                                ? kFinalists
+                                ? most_finalists(search) - 1
                                 : static_cast<std::size_t>(std::count_if(
                                       result.finalists.begin(), result.finalists.end(),
                                       [](const FinalDesign& f) { return !f.folder.empty(); }));
@@ -239,17 +238,17 @@ PartSeconds Run::wanted() const {
   const bool enough = !clock.limited() || seconds_of_designs(kFewNarrowed, Stage::Narrow) <=
                                               part_share(RunPart::Narrow) * study.search.time;
   if (enough) set(RunPart::Narrow, seconds_of_designs(narrowings(search), Stage::Narrow));
-  set(RunPart::Confirm, seconds_of_designs(kFinalists + 1, Stage::Confirm));
+  set(RunPart::Confirm, seconds_of_designs(most_finalists(search), Stage::Confirm));
   if (problem.belief())
-    set(RunPart::Belief,
-        seconds_of(believed(problem, result) * problem.nominal_tasks(), Stage::Belief));
+    set(RunPart::Belief, seconds_of(believed(*this) * problem.nominal_tasks(), Stage::Belief));
   set(RunPart::Stability, seconds_of(front * stability_variants(problem).size(), Stage::Stability));
   set(RunPart::Flat, seconds_of_designs(2, Stage::Confirm));
   set(RunPart::Rounding, seconds_of_designs(kJudgedOnGrid, Stage::Rounding));
   set(RunPart::Sensitivity, seconds_of_designs(1 + 2 * search.space.size(), Stage::Sensitivity));
   if (problem.parameters_unknown().empty())
     set(RunPart::Parameters,
-        seconds_of(designs_with_model_part(problem) * problem.nominal_tasks(), Stage::Steps));
+        seconds_of(designs_with_model_part(problem, search) * problem.nominal_tasks(),
+                   Stage::Steps));
   // The page solves a patch of the best design at each humidity, and files are written.
   set(RunPart::Files, kSecondsOfFiles + seconds_of(1, Stage::Confirm) * kPagePatches / kUsualSkins);
   return out;

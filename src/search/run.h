@@ -53,7 +53,7 @@ struct ScoreBySkin {
 };
 
 struct FinalDesign {
-  Point unit;         // empty: the study's own surface, where that lies outside the space
+  Point unit;
   bool flat = false;  // the surface without its texture, which `unit` still has
   Design design;
   Score searched, confirmed;
@@ -79,6 +79,7 @@ struct FinalDesign {
 struct BuiltDesign {
   FinalDesign made;      // `confirmed` is ok if it was evaluated, at the confirmation's accuracy
   bool widened = false;  // rounded designs that are nearer to the recommended one break a limit
+  // True too where nothing is rounded: without a grid, and of the study's own surface.
   // False: every rounded design breaks a limit, by its shape or as it was evaluated, so `made` is
   // not rounded.
   bool on_grid = true;
@@ -105,8 +106,10 @@ struct OptimiseResult {
   // Index in `finalists`: the design that was picked by number; else the choice over the belief
   // where there is one; else by the pick rule.
   std::size_t best = 0;
-  std::optional<Score> flat;         // the best surface without its texture, confirmed
-  std::optional<Score> flat_before;  // the study's own, where the best has another finish or drive
+  std::optional<Score> flat;  // the best surface without its texture, confirmed
+  // Where the best has another finish or drive than the study: its surface without its texture, on
+  // the same patch and skins, with the study's own.
+  std::optional<Score> flat_before;
   // `flat` or `flat_before` if it was evaluated and has no answer, for example because of pull-in.
   std::optional<Score> flat_unanswered, flat_before_unanswered;
   std::optional<BuiltDesign> build;
@@ -148,6 +151,7 @@ struct OptimiseOptions {
   const ResultWriter* writer =
       nullptr;          // none: the folder has the journal, the plan and no results
   bool finish = false;  // search no further (but for one design if the journal has none); confirm
+  double spent = 0;     // of the study's time, on preparing it [s]
 };
 
 // Throws InputError for a folder that belongs to another study or is in use, for one without a run

@@ -160,6 +160,8 @@ void add_objectives(Score& score, const Scoring& s, const std::vector<TaskAnswer
       error += s.tasks[t].weight * answers[t].objectives[k].error;  // they share skins: linearly
       total += s.tasks[t].weight;
     }
+    std::vector<double>& of_tasks = score.of_tasks.emplace_back();
+    for (std::size_t t = 0; t < s.nominal; ++t) of_tasks.push_back(answers[t].objectives[k].value);
     score.values.push_back(combined(s, k, numbers_of(s.goals, k, answers), &score.residuals));
     score.errors.push_back(error / total);
   }
@@ -188,16 +190,31 @@ void add_extremes(Score& score, const Scoring& s, const std::vector<TaskAnswer>&
   score.limited = std::move(bad.limited);
 }
 
-}  // namespace
-
-void move_limits(const StudyGoals& goals, const TaskAnswer& confirmed, const TaskAnswer& own,
-                 const TaskAnswer& there, TaskAnswer& out) {
+// Of answers of a task, or of scores of a design.
+template <class Numbers>
+void move_limited(const StudyGoals& goals, const Numbers& confirmed, const Numbers& own,
+                  const Numbers& there, Numbers& out) {
   for (std::size_t j = 0; j < goals.limited.size(); ++j) {
     const MetricExpression& e = goals.limited[j].expression;
     out.limited[j] = moved(confirmed.limited[j], own.limited[j], there.limited[j],
                            keeps_sign(e.summary, e.metric));
   }
   out.oxide_margin = moved(confirmed.oxide_margin, own.oxide_margin, there.oxide_margin, true);
+}
+
+}  // namespace
+
+void move_limits(const StudyGoals& goals, const TaskAnswer& confirmed, const TaskAnswer& own,
+                 const TaskAnswer& there, TaskAnswer& out) {
+  move_limited(goals, confirmed, own, there, out);
+}
+
+void move_limits(const StudyGoals& goals, const Score& confirmed, const Score& own,
+                 const Score& there, Score& out) {
+  move_limited(goals, confirmed, own, there, out);
+  if (confirmed.yield && own.yield && there.yield)
+    out.yield->share = std::clamp(
+        moved(confirmed.yield->share, own.yield->share, there.yield->share, true), 0.0, 1.0);
 }
 
 LimitedNumbers bad_side(const Scoring& s, const std::vector<LimitedNumbers>& of_tasks) {
@@ -249,15 +266,17 @@ void add_steps(Score& score, const Scoring& scoring, const std::vector<TaskAnswe
   double total = 0;
   for (std::size_t t = 0; t < scoring.nominal; ++t) {
     total += tasks[t].weight;
-    if (answers.at(t).steps.empty()) return;  // not asked for or not known
+    if (answers.at(t).model.empty()) return;  // not asked for or not known
   }
-  score.parameter_steps.resize(scoring.goals.objectives.size());
+  score.parameter_steps.assign(scoring.goals.objectives.size(), {});
   for (std::size_t k = 0; k < score.parameter_steps.size(); ++k) {
+    const StudyObjective& o = scoring.goals.objectives[k];
+    const bool keeps = o.aimed || keeps_sign(o.expression.summary, o.expression.metric);
     StepSamples& sums = score.parameter_steps[k];
     std::vector<std::size_t> first(scoring.nominal);  // direction of each finger
     bool known = true;
     for (std::size_t t = 0; t < scoring.nominal; ++t) {
-      const StepSamples& steps = answers[t].steps.at(k);
+      const StepSamples steps = answers[t].model.at(k).moves(score.of_tasks[k][t], keeps);
       std::size_t same = 0;
       const auto moved_alike = [&](const Finger& a, const Finger& b) {
         return a.belief == b.belief && (!a.belief.empty() || a.uncertainty == b.uncertainty);

@@ -34,6 +34,7 @@ struct Score {
   // Values: the risk over tasks, scatter and humidities. Errors: the mean over tasks, which share
   // their skins; of confirmed designs from `samples` where a risk is over them.
   std::vector<double> values, errors;
+  std::vector<std::vector<double>> of_tasks;  // [objective][task as designed]
   // What a standard deviation of the fingers' fitted numbers does to each objective: directions are
   // the same for every design of a study; the mean over tasks. Empty where not known (of an
   // objective: not defined at a step); only of confirmed designs. Eq. accuracy.12
@@ -52,9 +53,12 @@ struct Score {
 };
 
 // Sets the numbers of `out` that limits are about to the confirmed ones, moved as `there` moves
-// `own`: answers of one task at another level or of few skins. Eq. accuracy.15
+// `own`: answers of one task, or scores, at another level or of few skins. The look is the same at
+// every level and stays. Eq. accuracy.15
 void move_limits(const StudyGoals& goals, const TaskAnswer& confirmed, const TaskAnswer& own,
                  const TaskAnswer& there, TaskAnswer& out);
+void move_limits(const StudyGoals& goals, const Score& confirmed, const Score& own,
+                 const Score& there, Score& out);
 
 // What scores are made with, of a study.
 struct Scoring {
@@ -70,8 +74,9 @@ LimitedNumbers bad_side(const Scoring& scoring, const std::vector<LimitedNumbers
 
 // From one answer per task; the yield is asked for besides.
 Score score_of(const Scoring& scoring, const std::vector<TaskAnswer>& answers);
-// From the steps of every task as designed, where all have them. Fingers of one uncertainty move
-// together, others on their own; all share their skins.
+// From what every task as designed answers of finger and model, where all do: of the score of those
+// tasks, in proportion where a number keeps its sign. Fingers of one uncertainty move together,
+// others on their own; all share their skins. Eq. accuracy.12, accuracy.15
 void add_steps(Score& score, const Scoring& scoring, const std::vector<TaskAnswer>& answers);
 
 // Standard error that the parameters leave of an objective, or of its difference from another

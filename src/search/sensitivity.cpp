@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "metrics/shown.h"
 
 namespace papilla::search {
 namespace {
@@ -121,7 +122,7 @@ std::vector<SensitivityMove> sensitivity_moves(const StudyProblem& problem,
                                                const MovedDesign& centre) {
   const DesignSpace& space = problem.space();
   std::vector<SensitivityMove> out;
-  if (centre.unit.empty()) return out;  // the study's own surface, beside the space
+  if (DesignSpace::is_beside(centre.unit)) return out;
   const Point here = space.snapped(centre.unit);
   for (std::size_t k = 0; k < centre.unit.size(); ++k) {
     if (!space.cube().dimensions[k].choices.empty() ||
@@ -138,6 +139,16 @@ std::vector<SensitivityMove> sensitivity_moves(const StudyProblem& problem,
     }
   }
   return out;
+}
+
+void set_confirmed_limits(const StudyProblem& problem, const Score& confirmed, Score& at_centre,
+                          std::vector<Score>& moved) {
+  if (!at_centre.ok) return;
+  const Score own = at_centre;
+  move_limits(problem.goals(), confirmed, own, own, at_centre);
+  for (Score& there : moved) {
+    if (there.ok) move_limits(problem.goals(), confirmed, own, there, there);
+  }
 }
 
 std::vector<VariableSensitivity> sensitivity(const StudyProblem& problem, const MovedDesign& centre,
@@ -176,7 +187,12 @@ std::vector<VariableSensitivity> sensitivity(const StudyProblem& problem, const 
                      {room_before_evaluation(problem, centre, moves[i]),
                       room_with_evaluation(problem, at_centre, moved[i])});
   }
-  for (std::size_t o = 0; o < objectives.size(); ++o) share_out(out, o);
+  for (std::size_t o = 0; o < objectives.size(); ++o) {
+    for (VariableSensitivity& s : out) {
+      if (!s.change.empty()) s.change[o] = without_noise(objectives[o].expression, s.change[o]);
+    }
+    share_out(out, o);
+  }
   return out;
 }
 

@@ -54,6 +54,12 @@ struct MovedDesign {
 std::vector<SensitivityMove> sensitivity_moves(const StudyProblem& problem,
                                                const MovedDesign& centre);
 
+// Limits are judged as confirmed: what a move changes is told apart from what the level of the
+// moves is off by. confirmed: of the design, ok; at_centre and moved: at that level, changed.
+// Eq. search.9
+void set_confirmed_limits(const StudyProblem& problem, const Score& confirmed, Score& at_centre,
+                          std::vector<Score>& moved);
+
 // From the scores of the design and of its moves; empty when the design itself has failed.
 std::vector<VariableSensitivity> sensitivity(const StudyProblem& problem, const MovedDesign& centre,
                                              const std::vector<SensitivityMove>& moves,

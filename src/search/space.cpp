@@ -31,9 +31,29 @@ DesignSpace::DesignSpace(const Study& study) : study_(study) {
     if (fixed || std::abs(said[i] - own_value_[i]) <= kUnitsRound * scale) continue;
     own_value_[i] = said[i];
     own_beside_[i] = true;
-    surface_inside_ = surface_inside_ && v.path.starts_with("texture.");
   }
   cube_.collapse = [this](const Point& u) { return collapsed(u); };
+}
+
+std::vector<double> DesignSpace::value(const Point& unit) const {
+  std::vector<double> out = cube_.value(unit);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (unit[i] == kBeside) out[i] = own_value_[i];
+  }
+  return out;
+}
+
+Point DesignSpace::with_own_finish(Point unit) const {
+  const Point own = unit_of_study();
+  for (std::size_t i = 0; i < unit.size(); ++i) {
+    if (!study_.variables[i].path.starts_with("texture."))
+      unit[i] = own_beside_[i] ? kBeside : own[i];
+  }
+  return unit;
+}
+
+bool DesignSpace::is_beside(const Point& unit) {
+  return std::find(unit.begin(), unit.end(), kBeside) != unit.end();
 }
 
 bool DesignSpace::acts(const std::vector<NumberField>& known, std::size_t variable) const {

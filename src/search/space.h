@@ -24,9 +24,7 @@ class DesignSpace {
 
   const Space& cube() const { return cube_; }
   std::size_t size() const { return cube_.size(); }
-  std::vector<double> value(const Point& unit) const {
-    return unit.empty() ? own_value_ : cube_.value(unit);
-  }
+  std::vector<double> value(const Point& unit) const;
   Point unit(const std::vector<double>& value) const { return cube_.unit(value); }
   Point snapped(const Point& unit) const { return cube_.snapped(unit); }
 
@@ -38,9 +36,11 @@ class DesignSpace {
   // space fixes that value; the middle of the range where its own design has no such number.
   const std::vector<double>& own_values() const { return own_value_; }
   bool own_is_beside(std::size_t variable) const { return own_beside_[variable]; }  // the space
-  // The point of the study's own finish and drive. Empty where they lie outside the space: value()
-  // and design() of the empty point are of own_values().
-  Point own_surface() const { return surface_inside_ ? unit_of_study() : Point{}; }
+  // The same texture with the study's own finish and drive. A number of these that lies outside the
+  // space has the coordinate kBeside, of which value() and design() are the study's own.
+  static constexpr double kBeside = -1;
+  Point with_own_finish(Point unit) const;
+  static bool is_beside(const Point& unit);  // some number of it lies outside the space
   std::vector<Point> starts() const;
   // All corners of the first eight variables, where small features and borders of limits lie, and a
   // thousand places drawn inside.
@@ -71,7 +71,6 @@ class DesignSpace {
   Space cube_;
   std::vector<double> own_value_;      // of the study's own design
   std::vector<bool> own_beside_;       // which of them lie outside the space
-  bool surface_inside_ = true;         // what of it is not the texture's lies inside the space
   std::vector<std::string> sections_;  // of the variables
 };
 

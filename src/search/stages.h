@@ -81,7 +81,7 @@ void confirm(Run& run);
 
 // Designs whose members of belief are evaluated: the finalists that keep every limit; before there
 // are any, as many as there may be.
-std::size_t believed(const StudyProblem& problem, const OptimiseResult& result);
+std::size_t believed(const Run& run);
 // The finalists at every member of belief: which are on the front, and which to build.
 void judge_belief(Run& run);
 // The front first, each of its designs with its folder, by the first objective.

@@ -27,8 +27,8 @@ double distance(const StudyObjective& o, const Response& response) {
   return std::sqrt(sum / total);
 }
 
-// The objective over the steps of the response; empty: not defined.
-StepSamples steps_of(const StudyObjective& o, const Response& response) {
+// The objective over what is not known of finger and model.
+ModelReadings model_of(const StudyObjective& o, const Response& response) {
   Response there;
   there.driven = response.driven;
   there.appearance = response.appearance;
@@ -38,14 +38,14 @@ StepSamples steps_of(const StudyObjective& o, const Response& response) {
     if (!v || !std::isfinite(v->value)) return std::nullopt;
     return o.aimed ? distance(o, there) : v->value;
   };
-  return model_samples(response, value).value_or(StepSamples{});
+  return model_readings(response, value);
 }
 
 // What moves the finger leaves the pen: its own numbers have no errors stated.
-std::vector<StepSamples> steps_of(const StudyGoals& goals, const Response& response) {
-  std::vector<StepSamples> out;
+std::vector<ModelReadings> model_of(const StudyGoals& goals, const Response& response) {
+  std::vector<ModelReadings> out;
   for (const StudyObjective& o : goals.objectives)
-    out.push_back(o.expression.pen ? StepSamples{} : steps_of(o, response));
+    out.push_back(o.expression.pen ? ModelReadings{} : model_of(o, response));
   return out;
 }
 
@@ -185,7 +185,7 @@ TaskAnswer answer_of(const StudyGoals& goals, const Design& d, const std::string
   if (const auto w = summarise(Summary::Worst, kModulation, response)) out.worst = w->value;
   out.look = response.appearance;
   if (!response.parameters.steps.empty() || !response.belief.members.empty())
-    out.steps = steps_of(goals, response);
+    out.model = model_of(goals, response);
   out.oxide_margin = oxide_margin(goals, d, response);
   return out;
 }
@@ -250,7 +250,7 @@ TaskAnswer evaluate_steps(const StudyProblem& problem, const Design& design, std
   response.driven = scene.drive.driven();
   const Fidelity few = add_model_part(problem, scene, d, work.fidelity, response);
   TaskAnswer out;
-  out.steps = steps_of(problem.goals(), response);
+  out.model = model_of(problem.goals(), response);
   if (!response.belief.members.empty())
     out.members = member_answers(problem.goals(), scene, d, problem.tasks()[task].name, response,
                                  belief_fidelity(few, few.skins));

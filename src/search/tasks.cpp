@@ -16,11 +16,8 @@ namespace {
 
 // A frequency that no task feels is no variable.
 void check_frequency(const Study& study, const std::vector<StudyTask>& tasks) {
-  const auto searches = [&](const std::string& beginning) {
-    return std::any_of(study.variables.begin(), study.variables.end(),
-                       [&](const Variable& v) { return v.path.starts_with(beginning); });
-  };
-  if (searches("drive.frequency") && !searches("finger.electrical.")) {
+  if (std::any_of(study.variables.begin(), study.variables.end(),
+                  [](const Variable& v) { return v.path == "drive.frequency"; })) {
     const auto deaf = [&](const StudyTask& t) {
       return !frequency_not_felt(task_design(study, study.design, t)).empty();
     };
@@ -116,24 +113,8 @@ std::vector<StudyTask> study_tasks(const Study& study) {
   return tasks;
 }
 
-namespace {
-
-// The task's finger in place of the design's, but for what the study varies of it.
-void put_finger(const Study& study, const Finger& finger, Design& design) {
-  std::vector<std::pair<std::string, double>> varied;
-  for (const Variable& v : study.variables) {
-    if (v.path.starts_with("finger."))
-      varied.emplace_back(v.path, *find_number_field(number_fields(design), v.path).value);
-  }
-  design.finger = finger;
-  for (const auto& [path, value] : varied)
-    *find_number_field(number_fields(design), path).value = value;
-}
-
-}  // namespace
-
 Design task_design(const Study& study, Design d, const StudyTask& task, bool flat) {
-  if (!d.counterface.in_place()) put_finger(study, task.finger, d);
+  if (!d.counterface.in_place()) d.finger = task.finger;
   d = with_settings(std::move(d), task.settings);  // a scenario may change the finger too
   if (flat) d.texture = without_relief(std::move(d.texture));
   if (task.nominal()) return d;
@@ -169,13 +150,18 @@ std::string shape_trouble(const Study& study, const std::vector<StudyTask>& task
                           const Design& design) {
   if (const auto wrong = design_problems(design); !wrong.empty())
     return wrong.front().path + ": " + wrong.front().message;
-  for (const StudyTask& task : tasks) {
-    if (task.nominal()) continue;
-    const auto wrong = design_problems(task_design(study, design, task));
-    if (!wrong.empty())
-      return wrong.front().path + ": within the scatter, " + wrong.front().message;
-    if (task.scattered + 1 == static_cast<int>(study.scatter.size()) && task.sign > 0)
-      break;  // shapes are the same for every finger
+  if (study.scatter.empty()) return {};
+  // Shapes are the same for every finger. All ends are of one design: a search asks this of
+  // thousands of shapes, and to make a design takes longer than to judge it.
+  Plates plates(study, task_design(study, design, tasks.front()));
+  std::vector<double> deviation(study.scatter.size(), 0.0);
+  for (double& one : deviation) {
+    for (const int sign : {-1, 1}) {
+      one = sign;
+      if (const auto wrong = design_problems(plates.plate(deviation)); !wrong.empty())
+        return wrong.front().path + ": within the scatter, " + wrong.front().message;
+    }
+    one = 0;
   }
   return {};
 }

@@ -273,29 +273,30 @@ TEST(Summaries, StepsAreHalvedAndJackknifed) {
   }
 }
 
-// Of the field part two fiftieths of the pull are those of the 3-D field itself, the rest is the
+// Of the field part what its own pixels leave is that of the 3-D field itself, the rest is the
 // design's own; a humidity without a pull has no correction.
 TEST(Summaries, TheFieldPartIsSplitIntoWhatAllDesignsShareAndTheRest) {
   Response r = response_of({0.8, 0.6, 0});
-  const Values field{0.04, 0.03, 0}, corrections{0.9, 0.7, 1};
+  // By pixels 2 % and r²/R: 1.1 % at 0.9, 5.6 % at 0.79.
+  const Values field{0.04, 0.03, 0}, corrections{0.9, 0.79, 1};
   for (std::size_t i = 0; i < 3; ++i) {
     r.points[i].modulation.parts.field = field[i];
     r.points[i].field_correction = corrections[i];
-    r.points[i].field_error = 0.05;
+    r.points[i].field_error = 0.1;
   }
   const FieldPart mean = error_samples(Summary::Mean, kModulation, r).field,
                   range = error_samples(Summary::Range, kModulation, r).field,
                   second = error_samples_at(1, kModulation, r).field;
-  const double share = 0.4, rest = std::sqrt(1 - 0.16);
-  EXPECT_NEAR(mean.common, share * 0.07 / 3, 1e-12);
-  EXPECT_NEAR(mean.own, rest * 0.07 / 3, 1e-12);
-  EXPECT_NEAR(mean.error(), of(Summary::Mean, r).parts.field.value(), 1e-12);
+  const Values share{std::hypot(0.02, 0.01 / 0.9) / 0.1, std::hypot(0.02, 0.0441 / 0.79) / 0.1};
+  const Values rest{std::sqrt(1 - square(share[0])), std::sqrt(1 - square(share[1]))};
+  EXPECT_NEAR(mean.common, (share[0] * 0.04 + share[1] * 0.03) / 3, 1e-12);
+  EXPECT_NEAR(mean.own, (rest[0] * 0.04 + rest[1] * 0.03) / 3, 1e-12);
+  EXPECT_NEAR(mean.error(), of(Summary::Mean, r).parts.field.value(), 0.03 * mean.error());
   ASSERT_EQ(mean.corrections.size(), 2u);
-  EXPECT_NEAR(mean.corrections[1], std::log(0.7), 1e-12);
-  EXPECT_NEAR(mean.of_skins, rest * 0.05, 1e-12);
-  EXPECT_NEAR(range.common, 0, 1e-12);  // over the mean: one factor on all values is no part of it
-  EXPECT_GT(range.own, 0);              // humidities differ by a part of it
-  EXPECT_NEAR(second.own, rest * 0.03, 1e-12);
+  EXPECT_NEAR(mean.corrections[1], std::log(0.79), 1e-12);
+  EXPECT_NEAR(mean.of_skins, 0.1 * std::sqrt((square(rest[0]) + square(rest[1])) / 2), 1e-12);
+  EXPECT_GT(range.own, 0);  // humidities differ by a part of it
+  EXPECT_NEAR(second.own, rest[1] * 0.03, 1e-12);
   EXPECT_EQ(second.corrections.size(), 1u);
   EXPECT_TRUE(
       error_samples(Summary::Mean, parse_metric("friction").metric, r).field.corrections.empty());
@@ -308,7 +309,7 @@ TEST(Summaries, TheFieldPartOfAVoltageIsThatOfItsAmplitude) {
   VoltageAnswer there = answer(100, {});
   there.amplitude.parts.field = 2;
   there.field_correction = 0.8;
-  there.field_error = 0.05;
+  there.field_error = std::hypot(0.02, 0.05) / 0.4;
   r.points[0].voltages = {there};
   const FieldPart part = error_samples(Summary::Mean, VoltageFor{0.3}, r).field;
   EXPECT_NEAR(part.common, -0.4 * 2, 1e-12);

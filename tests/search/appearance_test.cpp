@@ -102,7 +102,7 @@ TEST(AppearanceInStudies, APeriodThatNoTheoryCoversIsOutsideTheSpace) {
   const Study covered = transparent_glass(fine);  // by the rigorous theory
   const StudyProblem inside(covered);
   EXPECT_LT(inside.constraints().geometry(inside.space().unit_of_study()).front(), 0);
-  EXPECT_EQ(look_theory(covered), "rigorous");  // named, not computed: that takes seconds
+  EXPECT_EQ(look_theory(inside), "rigorous");  // named, not computed: that takes seconds
   std::vector<std::string> scalar = fine;
   scalar.emplace_back("view.lattices=\"scalar\"");
   const Study study = transparent_glass(scalar);
@@ -118,8 +118,8 @@ TEST(AppearanceInStudies, NobodyPaysForALookThatIsNotAskedFor) {
                                   "environment.relative_humidity=[\"35 %\"]"});
   const StudyProblem problem(study);
   EXPECT_FALSE(problem.goals().looks);
-  EXPECT_EQ(look_theory(study), "");
-  EXPECT_EQ(look_price(study), 0);
+  EXPECT_EQ(look_theory(problem), "");
+  EXPECT_EQ(look_price(problem), 0);
   Fidelity fidelity = fidelity_level("search");
   fidelity.grid = 64;
   fidelity.skins = 1;

@@ -31,6 +31,14 @@ PartSeconds all(double seconds) {
   return out;
 }
 
+// What a run was prepared for, its price measured, is of its time.
+TEST(Clock, WhatWasSpentBeforeTheRunIsOfItsTime) {
+  const RunClock clock(60, 5), alone(60);
+  EXPECT_GE(clock.seconds(), 5);
+  EXPECT_LT(clock.left(all(0)), 55.01);
+  EXPECT_NEAR(alone.left(all(0)) - clock.left(all(0)), 5, 1);
+}
+
 TEST(Clock, TheSearchKeepsHalfOrWithBeliefFourTenthsHoweverMuchTheRestWants) {
   PartSeconds fitted = all(1e6);  // without a belief
   fitted[static_cast<std::size_t>(RunPart::Belief)] = 0;

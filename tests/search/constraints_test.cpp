@@ -13,6 +13,7 @@
 #include "report/limits.h"
 #include "report/stated_number.h"
 #include "search/problem.h"
+#include "tests/support/refusal.h"
 #include "tests/support/without_belief.h"
 
 namespace papilla::tests::constraints_test {
@@ -269,6 +270,8 @@ TEST(Constraints, ThatContradictEachOtherAreNamedWithWhatThereIs) {
       << both->text;
   EXPECT_NE(both->text.find("(at texture.period 10 um, "), std::string::npos) << both->text;
   EXPECT_TRUE(both->flat_keeps);  // a depth of 0 is in the space
+  EXPECT_EQ(study_warnings(StudyProblem(study)),
+            std::vector<std::string>{both->text + "; only the flat surface is left"});
   study.constraints = {read_constraint("min_wall", 20e-6), read_constraint("min_hole", 1e-6)};
   study.variables[2].low = 100e-9;
   const auto one = StudyProblem(study).constraints().contradiction();
@@ -278,9 +281,11 @@ TEST(Constraints, ThatContradictEachOtherAreNamedWithWhatThereIs) {
             0u)
       << one->text;
   EXPECT_FALSE(one->flat_keeps);
+  EXPECT_EQ(refusal_of([&] { study_warnings(StudyProblem(study)); }), one->text);
   study.constraints = {read_constraint("min_hole", 5e-6),
                        read_constraint("min_wall", 4.9e-6)};  // just so
   EXPECT_FALSE(StudyProblem(study).constraints().contradiction());
+  EXPECT_TRUE(study_warnings(StudyProblem(study)).empty());
 }
 
 }  // namespace

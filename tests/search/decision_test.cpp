@@ -20,6 +20,7 @@
 #include "report/stated_number.h"
 #include "search/levels.h"
 #include "tests/search/formula_run.h"
+#include "tests/support/refusal.h"
 #include "tests/support/thorough.h"
 
 namespace papilla::tests::decision_test {
@@ -157,8 +158,7 @@ TEST(Decision, IsTheLeastExpectedRegretAndNamesWhatOverturnsIt) {
 // says otherwise of what it answers itself keeps it there.
 TEST(Decision, AFrontOverBeliefHasWhatAMemberMayPrefer) {
   const BelievingRun a(0.3, "decision_front");
-  const FinalDesign better = a.best();
-  FinalDesign worse = better;
+  FinalDesign better = a.best(), worse = better;
   const auto worsen = [](Score& score) {
     score.values[0] -= 0.1;
     score.values[1] += 0.1;
@@ -171,6 +171,14 @@ TEST(Decision, AFrontOverBeliefHasWhatAMemberMayPrefer) {
   EXPECT_EQ(on_front(), (std::vector<bool>{true, false}));
   worse.few[2].score.worst *= 10;
   EXPECT_EQ(on_front(), (std::vector<bool>{true, true}));
+  // A member at which neither has an answer says nothing; one that answers of one alone prefers it.
+  for (Score* there : {&worse.members[2], &worse.few[2].score}) there->ok = false;
+  EXPECT_EQ(on_front(), (std::vector<bool>{true, false}));
+  std::swap(worse.members[2], better.members[2]);
+  std::swap(worse.few[2], better.few[2]);
+  EXPECT_EQ(on_front(), (std::vector<bool>{true, true}));
+  for (Score* there : {&worse.members[2], &worse.few[2].score}) there->ok = false;
+  EXPECT_EQ(on_front(), (std::vector<bool>{true, false}));
   // Without members it stays where its confirmed numbers put it.
   worse.members.clear();
   EXPECT_EQ(on_front(), (std::vector<bool>{true, true}));
@@ -543,16 +551,31 @@ TEST(Decision, FingersOfDifferentBeliefsHaveNoneInCommon) {
   const StudyProblem problem(study);
   EXPECT_FALSE(problem.belief());
   EXPECT_NE(problem.belief_absent().find("different beliefs"), std::string::npos);
+  // Said before anything is evaluated; refused of a study that says how belief is to decide.
+  EXPECT_EQ(
+      study_warnings(problem),
+      std::vector<std::string>{"no belief decides what to build, the fit of the fingers does: " +
+                               problem.belief_absent()});
+  study.risk.limits = 0.6;
+  EXPECT_EQ(refusal_of([&] { study_warnings(StudyProblem(study)); }),
+            "risk: no belief decides what to build, as " + problem.belief_absent() +
+                "; or leave [risk] out");
+  study.population[1].belief = first.belief;
+  EXPECT_TRUE(study_warnings(StudyProblem(study)).empty());
+  // Of fingers that name none nobody expects it.
+  study.risk = {};
+  study.population[0].belief = study.population[1].belief = "";
+  EXPECT_TRUE(study_warnings(StudyProblem(study)).empty());
 }
 
 TEST(Decision, ItsPriceIsStated) {
   Study study = believing(0.3);
-  const StudyCost with = study_cost(study);
+  const StudyCost with = study_cost(StudyProblem(study));
   EXPECT_EQ(with.members, 3u);
   EXPECT_GT(with.belief_seconds, 0);
   EXPECT_NE(search_plan(StudyProblem(study)).find("3 members"), std::string::npos);
   study.design.finger.belief.clear();
-  const StudyCost without = study_cost(study);
+  const StudyCost without = study_cost(StudyProblem(study));
   EXPECT_EQ(without.members, 0u);
   EXPECT_NEAR(with.bytes, without.bytes + 1.25 * 72e6, 1);
 }

@@ -128,8 +128,8 @@ TEST(LevelNumbers, StepsOfTheFingerCostTwoEvaluationsEach) {
   // A run has them of the best design and of its flat surface, on every finger.
   Study none = one_finger();
   none.design.finger.uncertainty.clear();
-  EXPECT_NEAR(study_cost(study).seconds - study_cost(none).seconds,
-              2 * over_price(Stage::Steps) * two, 1e-6 * study_cost(study).seconds);
+  EXPECT_NEAR(study_cost(StudyProblem(study)).seconds - study_cost(StudyProblem(none)).seconds,
+              2 * over_price(Stage::Steps) * two, 1e-6 * study_cost(StudyProblem(study)).seconds);
 }
 
 TEST(LevelNumbers, ThePlanOfASearchNamesItsStages) {
@@ -178,7 +178,7 @@ TEST(LevelNumbers, TheSmallestFeatureIsThatOfTheLimitOrOfACorner) {
   EXPECT_NEAR(StudyProblem(study).smallest_feature(), 0.1e-6, 1e-12);
   study.constraints = {read_constraint("min_wall", 10e-6)};  // none keeps it
   EXPECT_EQ(StudyProblem(study).smallest_feature(), kInfinity);
-  const StudyCost cost = study_cost(study);
+  const StudyCost cost = study_cost(StudyProblem(study));
   EXPECT_EQ(cost.pixels, 64);
   EXPECT_EQ(cost.feature, kInfinity);
 }

@@ -122,6 +122,7 @@ TEST(StudyProblem, FingersOfOneUncertaintyMoveTogether) {
     const StudyProblem problem(study);  // the steps alone
     const Design design = problem.space().design(problem.space().unit_of_study());
     Score alone;
+    alone.of_tasks = same.of_tasks;
     problem.add_steps(
         alone, {evaluate_steps(problem, design, 0, {f}), evaluate_steps(problem, design, 1, {f})});
     EXPECT_EQ(alone.parameter_steps, same.parameter_steps);

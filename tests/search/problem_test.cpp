@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -77,21 +78,41 @@ TEST(Tasks, AreEveryFingerInEveryScenarioThenBothEndsOfEachScatter) {
   EXPECT_NE(refusal(study).find("at least one weight above 0"), std::string::npos);
 }
 
-// Of a finger that stands in a design what the study varies stays; a scenario goes before that.
-TEST(Tasks, KeepWhatTheStudyVariesOfTheFinger) {
+// A fault of a shape within its scatter is found and named. All ends are of one design: to make one
+// for each takes longer than to judge them, and a search asks this of thousands of shapes.
+TEST(Tasks, OfAShapeAreJudgedInLessTimeThanTheyAreMade) {
   Study study = oxide_study();
   study.population.resize(1);
-  study.population[0].load = 0.3, study.population[0].touch_time = 7;
-  study.variables = {{"finger.load", "N", 0.1, 1, {}}};
-  study.scenarios = {{"free", 1, {}}, {"heavy", 1, {{"finger.load", 0.9}}}};
-  Design design = study.design;
-  design.finger.load = 0.7;
+  study.scatter = {{"texture.depth", 20e-9},
+                   {"texture.diameter", 50e-9},
+                   {"surface.dielectric.0.thickness", 50e-9}};
   const std::vector<StudyTask> tasks = study_tasks(study);
-  EXPECT_EQ(task_design(study, design, tasks[0]).finger.load, 0.7);
-  EXPECT_EQ(task_design(study, design, tasks[0]).finger.touch_time, 7);
-  EXPECT_EQ(task_design(study, design, tasks[1]).finger.load, 0.9);
-  study.variables.clear();
-  EXPECT_EQ(task_design(study, design, tasks[0]).finger.load, 0.3);
+  EXPECT_EQ(shape_trouble(study, tasks, study.design), "");
+  Design wide = study.design;
+  HoleArray& holes = std::get<HoleArray>(wide.texture.kind);
+  holes.wall_angle = kPi / 2, holes.edge_radius = 0;
+  holes.diameter = holes.period - 20e-9;
+  EXPECT_TRUE(design_problems(wide).empty());
+  EXPECT_NE(shape_trouble(study, tasks, wide).find(": within the scatter, "), std::string::npos)
+      << shape_trouble(study, tasks, wide);
+  const auto seconds = [](const auto& work) {  // of this process, the least of three times
+    double least = kInfinity;
+    for (int time = 0; time < 3; ++time) {
+      const std::clock_t begin = std::clock();
+      for (int k = 0; k < 50; ++k) work();
+      least = std::min(least, static_cast<double>(std::clock() - begin));
+    }
+    return least;
+  };
+  std::size_t faults = 0;
+  const double judged =
+      seconds([&] { faults += shape_trouble(study, tasks, study.design).size(); });
+  const double made = seconds([&] {
+    for (const StudyTask& task : tasks)
+      faults += !task.nominal() && task_design(study, study.design, task).texture == Texture{};
+  });
+  EXPECT_EQ(faults, 0u);
+  EXPECT_LT(judged, made);
 }
 
 // A scenario gives the surface without a texture none: it is one surface in all of them.
@@ -169,6 +190,28 @@ TEST(Tasks, WithoutAPopulationTheDesignsOwnFingerIsTheOnlyOne) {
   EXPECT_EQ(names_of(study_tasks(study)), Names{"own"});
   study.population = {study.design.finger, study.design.finger};
   EXPECT_EQ(StudyProblem(study).nominal_tasks(), 2u);
+}
+
+// Of a study each finger is asked, not the one of the design that they stand in for; what several
+// say in the same words is said once.
+TEST(Study, OfModelOptionsThatAFingerWasNotFittedWithIsRefused) {
+  Study study = oxide_study();
+  const auto refused = [&] {
+    return refusal_of(
+        [&] { require_fitted_fingers(StudyProblem(study), "mine.toml", "run with --force"); });
+  };
+  EXPECT_EQ(refused(), "");
+  study.design.model.rim_pinning = !study.design.model.rim_pinning;
+  study.population.resize(1);
+  study.population[0].name = "one";
+  study.scenarios = {{"new", 1, {}}, {"worn", 1, {{"finger.load", 0.3}}}};
+  const std::string said = refused(), line = "the finger \"one\" was fitted with";
+  EXPECT_NE(said.find("model.rim_pinning is "), std::string::npos) << said;
+  EXPECT_NE(said.find("run with --force"), std::string::npos) << said;
+  EXPECT_NE(said.find(line), std::string::npos) << said;
+  EXPECT_EQ(said.find(line), said.rfind(line)) << said;
+  study.population[0].calibrated_for.rim_pinning = study.design.model.rim_pinning;
+  EXPECT_EQ(refused(), "");
 }
 
 TEST(Goals, AreNamedInTheOrderOfTheirFileAndAtMostThree) {
@@ -334,7 +377,7 @@ TEST(Levels, TheSearchSeesTheSmallestFeature) {
     const double feature = std::min(diameter, period - diameter);
     EXPECT_NEAR(problem.smallest_feature(), feature, 1e-12);
     EXPECT_EQ(stage_fidelity(problem, Stage::Search).grid, grid) << diameter;
-    const StudyCost cost = study_cost(study);
+    const StudyCost cost = study_cost(StudyProblem(study));
     EXPECT_EQ(cost.pixels, grid);
     EXPECT_NEAR(cost.feature_pixels, feature * grid / 12e-6, 1e-9);
   }
@@ -345,7 +388,7 @@ TEST(Price, OfAStudyIsThatOfItsStages) {
   Study study = oxide_study();
   study.search.evaluations = 60;
   const StudyProblem problem(study);
-  const StudyCost cost = study_cost(study);
+  const StudyCost cost = study_cost(StudyProblem(study));
   EXPECT_EQ(cost.evaluations, 60);
   EXPECT_EQ(cost.tasks, 4);
   EXPECT_EQ(cost.narrowed, 20u);
@@ -361,6 +404,12 @@ TEST(Price, OfAStudyIsThatOfItsStages) {
   if (problem.parameters_unknown().empty()) seconds += price(2 * 4, Stage::Steps);
   EXPECT_NEAR(cost.seconds, seconds, 1e-9 * seconds);
   EXPECT_GT(seconds, 0);
+  // No more designs are confirmed than are evaluated, and one that is searched for.
+  study.search.evaluations = 2;
+  const StudyCost few = study_cost(StudyProblem(study));
+  EXPECT_EQ(few.finalists, 3u);
+  EXPECT_LT(few.seconds, 0.6 * cost.seconds);
+  study.search.evaluations = 60;
   // Memory: a patch of the confirmation, and what is kept for designs to come: 64 kernels, skins in
   // 64 MB, their waves and what films do, a quarter more for the allocator.
   const Design& d = study.design;

@@ -16,7 +16,7 @@ TaskAnswer full_answer() {
   a.look = Look{0.01, 0.9, 1, 0.002};
   a.limited = {kInfinity};
   a.samples = {{{{1, 2}, {0.5}, {}}}, {{}}};
-  a.steps = {{{0.1, 0.2}, {0.3}}, {}};
+  a.model = {{{{0.1, 0.2}, {0.3}}, {}}, {{}, {{0.4, 0.6}, {{1, {2}}, {3, {4}}}, {5, {6}}}}};
   a.report = "{\n \"points\": [1, 2]\t}: not 3 words";
   return a;
 }
@@ -35,7 +35,7 @@ TEST(Protocol, AnAnswerComesBackInEveryBit) {
   EXPECT_EQ(back->samples[0][0].sampling, a.samples[0][0].sampling);
   EXPECT_EQ(back->samples[0][0].grid, a.samples[0][0].grid);
   EXPECT_EQ(back->samples[1].size(), 1u);
-  EXPECT_EQ(back->steps, a.steps);
+  EXPECT_EQ(back->model, a.model);
   EXPECT_EQ(back->report, a.report);
 }
 

@@ -76,8 +76,7 @@ TEST_F(Records, OfTheStudyAreTaken) {
   }
 }
 
-// Without a point in the space only the study's own surface is asked of, where its file has it
-// beside the space.
+// Of a place beside the space only the study's own finish is asked of, where its file has it there.
 TEST(RecordsBesideTheSpace, AreOfTheStudysOwnSurfaceAlone) {
   Study study = small_study();
   for (const bool beside : {false, true}) {
@@ -85,10 +84,18 @@ TEST(RecordsBesideTheSpace, AreOfTheStudysOwnSurfaceAlone) {
     const StudyProblem problem(study);
     const SearchProblem search = search_problem(problem);
     const Bytes refused = encode(TaskAnswer::refused(TaskStatus::Kind::Crashed, "crashed"));
-    for (const bool flat : {false, true}) {
-      const TaskRequest own{Stage::Confirm, 0, flat, {}, 0};
-      EXPECT_EQ(checked_request(problem, search, {encode(own), refused}).has_value(),
-                beside && flat);
+    const auto sound = [&](const Point& unit) {
+      const TaskRequest request{Stage::Confirm, 0, true, unit, 0};
+      return checked_request(problem, search, {encode(request), refused}).has_value();
+    };
+    EXPECT_FALSE(sound({}));
+    Point own = problem.space().with_own_finish(Point(study.variables.size(), 0.5));
+    EXPECT_EQ(DesignSpace::is_beside(own), beside);
+    EXPECT_TRUE(sound(own));
+    EXPECT_EQ(own[3] == DesignSpace::kBeside, beside);
+    for (const double nowhere : {DesignSpace::kBeside, 1.5, std::nan("")}) {
+      own[0] = nowhere;  // of the texture
+      EXPECT_FALSE(sound(own)) << nowhere;
     }
   }
 }
@@ -127,7 +134,11 @@ TEST_F(Records, WithAnswersOfAnotherShapeAreRefused) {
       [](TaskRequest&, TaskAnswer& a) { a.limited.resize(a.limited.size() + 1); },
       [](TaskRequest&, TaskAnswer& a) { a.samples.resize(9); },
       [](TaskRequest&, TaskAnswer& a) { a.samples.resize(a.objectives.size()); },  // each empty
-      [](TaskRequest&, TaskAnswer& a) { a.steps.resize(9); },
+      [](TaskRequest&, TaskAnswer& a) { a.model.resize(9); },
+      [](TaskRequest&, TaskAnswer& a) {
+        a.model.resize(a.objectives.size());
+        a.model[0].belief = {{0.5, 0.5}, {{1, {1, 2}}, {1, {1}}}, {1, {1, 2}}};
+      },
       [](TaskRequest& r, TaskAnswer&) { r.task = 1000000; },
       [](TaskRequest& r, TaskAnswer&) { r.unit.clear(); },
       [](TaskRequest& r, TaskAnswer&) { r.stage = Stage::Search; }};

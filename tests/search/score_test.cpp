@@ -52,6 +52,26 @@ TEST(Scores, WeighTasksAndAddTheirErrorsByWeight) {
   }
 }
 
+// By the confirmed number, not by that of the few skins that members are run on: modulation is .3
+// and .7 where they have half of it, so the members' halves and doubles are worth twice as much.
+TEST(Scores, MembersMoveTheConfirmedNumberInProportion) {
+  const Study study = weighted_study();
+  const StudyProblem problem(study);
+  std::vector<TaskAnswer> answers{answer(problem, {0.2, 0.4}), answer(problem, {0.5, 0.9})};
+  const Score confirmed = problem.score(problem.study().design, answers);
+  EXPECT_FALSE(parameter_error(confirmed, 0));
+  for (const double of : {0.15, 0.35}) {
+    TaskAnswer& a = answers[of > 0.2 ? 1 : 0];
+    const auto run = [&](double v) { return RunReading{v, {v, v, v}}; };
+    a.model.assign(2, {{}, {{0.5, 0.5}, {run(0.9 * of), run(1.1 * of)}, run(of)}});
+  }
+  Score score = confirmed;
+  problem.add_steps(score, answers);
+  EXPECT_NEAR(*parameter_error(score, 0), 0.1 * score.values[0], 1e-12);
+  problem.add_steps(score, answers);  // once is as good as twice
+  EXPECT_NEAR(*parameter_error(score, 0), 0.1 * score.values[0], 1e-12);
+}
+
 // What a study maximises is minimised with the other sign; what it minimises stays.
 TEST(Scores, OnlyWhatIsMaximisedChangesItsSignForTheSearcher) {
   const Study study = default_study();
@@ -212,6 +232,31 @@ TEST(Slopes, OfALinearModelAreItsOwn) {
   }
 }
 
+// A share of people that is nothing changes by the last bits of a sum: that is no change, has no
+// part of a variance and ends no tolerance.
+TEST(Slopes, OfAShareThatIsNothingAreNothing) {
+  Study study = default_study();
+  study.objective = {};
+  study.objective.maximise = {parse_metric("mean(felt(modulation = 0.35))")};
+  const StudyProblem problem(study);
+  const Point centre = problem.space().unit({6e-6, 3e-6, 400e-9, 1.1});
+  const auto scored = [](double felt) {
+    Score s;
+    s.ok = true;
+    s.values = {felt};
+    s.oxide_margin = 10;
+    return s;
+  };
+  const std::vector<SensitivityMove> moves = sensitivity_moves(problem, {centre});
+  ASSERT_GE(moves.size(), 2u);
+  std::vector<Score> moved(moves.size(), scored(1e-35));
+  moved[1] = scored(1e-60);
+  const auto found = sensitivity(problem, {centre}, moves, scored(1e-35), moved);
+  EXPECT_EQ(found[0].change, std::vector<double>{0});
+  EXPECT_EQ(found[0].share, std::vector<double>{0});
+  EXPECT_EQ(found[0].up.end, Drift::End::StepTried);
+}
+
 // Half the change between both sides where both were judged, else that of the side that was.
 TEST(Slopes, AreTheMeanOfBothSidesOrThoseOfTheOneThatThereIs) {
   const Study study = default_study();
@@ -307,6 +352,36 @@ TEST(Slopes, EndAtTheLimitsOfTheStudy) {
   EXPECT_NEAR(found[2].down.most, found[2].step * 0.01 / 2.01, 1e-9 * found[2].step);
 }
 
+// The level of the steps has 2.001 of a margin that is confirmed as 2.2 and may fall to 2: the room
+// is that of the confirmed number, moved as the step moves that of its level.
+TEST(Slopes, EndWhereTheConfirmedNumberReachesTheLimit) {
+  const Study study = default_study();
+  const StudyProblem problem(study);
+  const Point centre = problem.space().unit({6e-6, 3e-6, 300e-9, 1.1});
+  const std::vector<SensitivityMove> moves = sensitivity_moves(problem, {centre});
+  Score here;
+  here.ok = true;
+  here.values = {0.5, 0.25};
+  here.oxide_margin = 2.001;
+  here.yield = YieldShare{0.4, 0.01};
+  Score confirmed = here;
+  confirmed.oxide_margin = 2.2;
+  confirmed.yield = YieldShare{0.8, 0.01};
+  std::vector<Score> moved(moves.size(), here);
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    if (moves[i].variable == 2 && moves[i].sign > 0) moved[i].oxide_margin = 1.75;
+  }
+  moved[0].yield->share = 0.3;
+  set_confirmed_limits(problem, confirmed, here, moved);
+  EXPECT_EQ(here.oxide_margin, 2.2);
+  EXPECT_NEAR(moved[0].yield->share, 0.8 * 0.3 / 0.4, 1e-12);
+  const auto found = sensitivity(problem, {centre}, moves, here, moved);
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_EQ(found[2].up.limit, "oxide_breakdown_margin");
+  EXPECT_NEAR(found[2].up.most, found[2].step * 0.2 / (2.2 * (1 - 1.75 / 2.001)),
+              1e-9 * found[2].step);
+}
+
 // Where a whole step makes no shape, as a period below its width, a part of it is tried; where no
 // room is left to a limit, that is said and not a room below any fab's.
 TEST(Slopes, TryThePartOfAStepThatMakesAShape) {
@@ -372,6 +447,8 @@ TEST(Slopes, TolerateWhatInstrumentsDoNotRead) {
   EXPECT_EQ(tolerated("mean(gloss)", 0), 0.1);
   EXPECT_EQ(tolerated("mean(adhesion)", 0), 1e-4);
   EXPECT_DOUBLE_EQ(tolerated("variation(adhesion)", 0.2), 0.01);
+  EXPECT_EQ(tolerated("mean(felt(modulation = 0.35))", 0), 0.01);  // a share of people
+  EXPECT_DOUBLE_EQ(tolerated("variation(felt(modulation = 0.35))", 0.2), 0.01);
 }
 
 // On a target the distance is next to nothing, and 5 % of it no tolerance.
@@ -451,7 +528,11 @@ TEST(Space, KeepsTheStudysOwnSurfaceBesideIt) {
                      {"surface.contact_angle", "deg", own - 0.1, own + 0.1, {}},
                      {"surface.dielectric.0.thickness", "nm", kFilm, kFilm, {kFilm}}};
   const StudyProblem inside(study);
-  EXPECT_EQ(inside.space().own_surface(), inside.space().unit_of_study());
+  const Point texture = inside.space().unit({400e-9, own + 0.05, kFilm});
+  const Point at_home = inside.space().with_own_finish(texture);
+  EXPECT_EQ(at_home[0], texture[0]);
+  EXPECT_EQ(at_home[1], inside.space().unit_of_study()[1]);
+  EXPECT_FALSE(DesignSpace::is_beside(at_home));
   EXPECT_NEAR(inside.space().own_values()[1], own, 1e-12);
   EXPECT_EQ(inside.space().own_values()[2], kFilm);
   const auto expect_beside = [&](const Variable& angle, double nearest) {
@@ -460,10 +541,12 @@ TEST(Space, KeepsTheStudysOwnSurfaceBesideIt) {
     const DesignSpace& space = problem.space();
     EXPECT_NEAR(space.value(space.unit_of_study())[1], nearest, 1e-12);
     EXPECT_EQ(space.own_values()[1], own);
-    const Design surface = space.design(space.own_surface());
+    const Point unit = space.with_own_finish(texture);
+    EXPECT_TRUE(DesignSpace::is_beside(unit));
+    const Design surface = space.design(unit);
     EXPECT_EQ(surface.surface.contact_angle, own);
     EXPECT_EQ(surface.surface.dielectric[0].thickness, kFilm);
-    EXPECT_EQ(space.value(space.own_surface()), space.own_values());
+    EXPECT_NEAR(space.value(unit)[0], 400e-9, 1e-15);  // the texture stays
   };
   const Variable range{"surface.contact_angle", "deg", own + 0.1, own + 0.3, {}};
   expect_beside(range, own + 0.1);

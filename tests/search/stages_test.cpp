@@ -308,7 +308,7 @@ TEST(Stages, TheStudysOwnSurfaceMayLieBesideTheSpace) {
   const double own = study.design.surface.contact_angle;
   study.variables[1].low = own + 0.1;
   const Formula formula = [](const TaskRequest& r) {
-    return smooth(r, r.unit.empty() ? 2 : r.unit[1]);
+    return smooth(r, r.unit[1] == DesignSpace::kBeside ? 2 : r.unit[1]);
   };
   const std::string folder = fresh_folder("stages_beside");
   for (const bool again : {false, true}) {
@@ -328,6 +328,41 @@ TEST(Stages, TheStudysOwnSurfaceMayLieBesideTheSpace) {
     EXPECT_TRUE(result.at_bound.empty());
     EXPECT_TRUE(result.sensitivity.empty());
   }
+}
+
+// Flat glass on another patch differs by what its skins scatter: what the finish does is judged on
+// the patch of the best texture, with its finish and with that of the study, here beside the space.
+TEST(Stages, TheFinishIsComparedOnThePatchOfTheBestTexture) {
+  Study study = evolved();
+  study.variables[1].low = study.design.surface.contact_angle + 0.1;
+  AnsweredRun a(study, fresh_folder("stages_patch"), lines);
+  ASSERT_TRUE(a.whole());
+  const Point best = a.run.result.finalists[a.run.result.best].unit;
+  ASSERT_NE(best[0], a.run.problem.space().unit_of_study()[0]);
+  ASSERT_TRUE(a.run.result.flat && a.run.result.flat_before);
+  std::vector<Point> flat;
+  for (const TaskRequest& r : a.asked) {
+    if (r.stage == Stage::Confirm && r.flat) flat.push_back(r.unit);
+  }
+  EXPECT_EQ(flat, (std::vector<Point>{best, {best[0], DesignSpace::kBeside}}));
+}
+
+// Nothing of the study's own surface was searched: it is built as its file says, though numbers of
+// the grid beside it may be judged better.
+TEST(Stages, TheStudysOwnSurfaceIsNotRounded) {
+  AnsweredRun a(evolved(), fresh_folder("stages_own"), [](const TaskRequest& r) {
+    TaskAnswer out = smooth(r, kOwnAngle);
+    if (r.stage == Stage::Rounding) out.objectives[0].value += 0.5;
+    return out;
+  });
+  ASSERT_TRUE(a.whole());
+  const OptimiseResult& result = a.run.result;
+  ASSERT_EQ(advice_of(a.run.problem, result), Advice::LeaveFlat);
+  EXPECT_EQ(a.count(Stage::Rounding, true) + a.count(Stage::Rounding, false), 0);
+  ASSERT_TRUE(result.build);
+  EXPECT_TRUE(result.build->on_grid);
+  EXPECT_NEAR(result.build->made.design.surface.contact_angle, a.study.design.surface.contact_angle,
+              1e-12);
 }
 
 // Of a study without texture: what its finish changes is against its own surface.
