@@ -117,6 +117,12 @@ Heightmap round_features(const FeatureArray& array, const WallSection& wall, con
   return out;
 }
 
+double width_at_half_depth(const FeatureArray& a, const WallSection& wall) {
+  const WallProfile profile(wall.depth, wall.wall_angle, wall.edge_radius);
+  const double inside = wall.depth > 0 ? profile.inside(0.5 * wall.depth) : 0;
+  return a.width + (a.deep ? -2 : 2) * inside;
+}
+
 double feature_share(const FeatureArray& a) {
   if (a.shape == FeatureArray::Shape::Line) return a.width / a.period;
   const double cell = a.lattice == Lattice::Square ? a.period * a.period

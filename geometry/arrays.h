@@ -28,6 +28,10 @@ void lattice_field(FieldVisitor& v, Lattice& lattice);
 Heightmap round_features(const FeatureArray& array, const WallSection& wall, const Grid& grid,
                          const std::function<double(double, double)>& height);
 
+// Width [m] half-way down the section: the feature as wide there as straight walls of its own angle
+// make it, whatever their rims, as long as these end above. Eq. geometry.1
+double width_at_half_depth(const FeatureArray& array, const WallSection& wall);
+
 double feature_share(const FeatureArray& array);  // of the area, inside the features
 TextureFacts array_facts(FeatureArray array, const WallSection& wall);
 

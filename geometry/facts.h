@@ -44,6 +44,12 @@ struct Planes {
   double low, high;
 };
 
+// Those of the lowest and the highest pixel of a map.
+inline Planes planes_of(const Heightmap& h) {
+  const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
+  return {*low, *high};
+}
+
 // present: the surface is not flat. planes: none where heights are known by their statistics or by
 // a file alone.
 struct Relief {
@@ -84,7 +90,7 @@ struct FreePatch {
 struct FabricationMargins {
   double min_hole;      // smallest opening [m]
   double min_wall;      // smallest land or wall [m]
-  double aspect_ratio;  // depth / smallest lateral feature
+  double aspect_ratio;  // depth / smallest hole or wall
 
   double smallest() const { return std::min(min_hole, min_wall); }
   static FabricationMargins none() {

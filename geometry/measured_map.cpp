@@ -19,8 +19,13 @@
 namespace papilla::geometry {
 namespace {
 
-// What lies beyond the centres of a map's last pixels: their value, or the map again.
-enum class Border { Held, Repeats };
+// Sides after which a map begins again [m]; held: it does not, what lies beyond the centres of its
+// last pixels has their value.
+struct Border {
+  double x = kHeld, y = kHeld;
+
+  static constexpr double kHeld = 0;
+};
 
 // Two neighbouring pixels along a side, and the share of the second.
 struct Between {
@@ -28,21 +33,30 @@ struct Between {
   double share;
 };
 
-Between between(double at, double pixel, int n, Border border) {
-  const double place = at / pixel - 0.5;
-  if (border == Border::Repeats) {
+// The same place of a period that the map holds with its neighbours, where it is shorter than the
+// map: whole maps are wrapped by their pixels.
+double within_period(double at, double pixel, double whole, double period) {
+  if (period >= whole * (1 - 1e-9)) return at;
+  constexpr double kRounding = 1e-9;  // the centre of the first pixel stays where it is
+  const double first = 0.5 * std::min(pixel, whole - period);
+  return at - period * std::floor((at - first) / period + kRounding);
+}
+
+Between between(double at, double pixel, int n, double period) {
+  if (period > 0) {
+    const double place = within_period(at, pixel, n * pixel, period) / pixel - 0.5;
     const int below = static_cast<int>(std::floor(place));
     return {wrap(below, n), wrap(below + 1, n), place - below};
   }
-  const double u = std::clamp(place, 0.0, n - 1.0);
+  const double u = std::clamp(at / pixel - 0.5, 0.0, n - 1.0);
   const int i = std::min(static_cast<int>(u), n - 1);
   return {i, std::min(i + 1, n - 1), u - i};
 }
 
 // Bilinear value at (x, y) [m].
-double value_at(const Heightmap& h, double x, double y, Border border) {
-  const auto [ix, jx, s] = between(x, h.grid.dx(), h.grid.nx, border);
-  const auto [iy, jy, t] = between(y, h.grid.dy(), h.grid.ny, border);
+double value_at(const Heightmap& h, double x, double y, const Border& border) {
+  const auto [ix, jx, s] = between(x, h.grid.dx(), h.grid.nx, border.x);
+  const auto [iy, jy, t] = between(y, h.grid.dy(), h.grid.ny, border.y);
   return (1 - t) * ((1 - s) * h(ix, iy) + s * h(jx, iy)) +
          t * ((1 - s) * h(ix, jy) + s * h(jx, jy));
 }
@@ -66,7 +80,7 @@ std::shared_ptr<const Scan> scan_of(const ScanSource& source) {
 // blended into what lies below the lower border, so that the patch repeats without a step (Eq.
 // geometry.4). Variance is kept. A pixel is the mean over its area.
 Heightmap periodic_cut(const Heightmap& source, const Grid& grid, double x0, double y0, double bx,
-                       double by, const Plane& plane, Border border) {
+                       double by, const Plane& plane, const Border& border) {
   const int nx = std::max(1, static_cast<int>(std::ceil(grid.dx() / source.grid.dx() - 1e-9))),
             ny = std::max(1, static_cast<int>(std::ceil(grid.dy() / source.grid.dy() - 1e-9)));
   const auto sample = [&](double x, double y) {
@@ -99,6 +113,14 @@ Heightmap periodic_cut(const Heightmap& source, const Grid& grid, double x0, dou
     }
   }
   return out;
+}
+
+// Side after which a map begins again along a side of the patch that it makes [m]: all of it, where
+// so many maps make that; else as many of its periods as it holds.
+double repeats_after(double whole, double period, double side) {
+  if (divides(whole, side)) return whole;
+  constexpr double kRounding = 1e-6;  // of a period, as divides() has it
+  return period * std::max(1.0, std::floor(whole / period + kRounding));
 }
 
 // Whether so many whole cells make the sides.
@@ -247,13 +269,15 @@ Heightmap patch_of_map(const ScanSource& source, double patch, const MapPlace& a
                           ": a map that repeats by itself begins at its corner, in a stack "
                           "and where it is taken several times; leave them out");
     }
-    return periodic_cut(scan->map, grid, 0, 0, 0, 0, {}, Border::Repeats);
+    return periodic_cut(
+        scan->map, grid, 0, 0, 0, 0, {},
+        {repeats_after(whole.lx, period.x, grid.lx), repeats_after(whole.ly, period.y, grid.ly)});
   }
   const double x0 = 0.5 * (whole.lx - grid.lx) + at.x, y0 = 0.5 * (whole.ly - grid.ly) + at.y;
   const double seam = source.as_is ? 0 : kSeam;  // what is known repeats by itself
   return periodic_cut(scan->map, grid, x0, y0, std::clamp(x0, 0.0, seam * grid.lx),
                       std::clamp(y0, 0.0, seam * grid.ly), {},
-                      source.as_is || repeats ? Border::Repeats : Border::Held);
+                      repeats ? Border{whole.lx, whole.ly} : Border{});
 }
 
 double measured_skin_cutoff(const std::string& file, double width) {
@@ -279,7 +303,7 @@ Heightmap measured_skin(const std::string& file, double width, const Grid& grid,
                y0 = by + random.uniform() * std::max(0.0, room_y);
   const bool mirror_x = random.uniform() < 0.5, mirror_y = random.uniform() < 0.5;
   const Plane plane = plane_of(source, x0, y0, grid.lx, grid.ly);
-  const Heightmap cut = periodic_cut(source, grid, x0, y0, bx, by, plane, Border::Held);
+  const Heightmap cut = periodic_cut(source, grid, x0, y0, bx, by, plane, Border{});
   Heightmap out = cut;
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix) {

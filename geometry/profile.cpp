@@ -47,6 +47,11 @@ double WallProfile::drop(double s) const {
   return rim_ - std::sqrt(rim_ * rim_ - t * t);
 }
 
+double WallProfile::inside(double drop) const {
+  if (drop <= rim_drop_) return start_ + std::sqrt(drop * (2 * rim_ - drop));
+  return start_ + rim_end_ + (drop - rim_drop_) / slope_;
+}
+
 double WallProfile::mean_drop(double s, double pixel) const {
   if (depth_ <= 0) return 0;
   return (integral(s + 0.5 * pixel) - integral(s - 0.5 * pixel)) / pixel;

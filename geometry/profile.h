@@ -14,6 +14,8 @@ class WallProfile {
   // a pixel: exact integral of the section, so the removed volume is right. Eq. geometry.1
   double mean_drop(double s, double pixel) const;
   double drop(double s) const;  // the same at a point
+  // The distance inside the edge where it is so deep [m]; 0 < drop <= depth.
+  double inside(double drop) const;
   // From where to where the section falls, as s.
   double start() const { return start_; }
   double end() const { return start_ + floor_; }

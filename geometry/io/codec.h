@@ -50,6 +50,7 @@ class ImageIn {
   virtual const ImageSpec& spec() const = 0;  // without the attributes
   virtual std::optional<double> number(const std::string& attribute) const = 0;  // doubles alone
   virtual std::optional<float> single(const std::string& attribute) const = 0;   // floats alone
+  virtual std::optional<int> whole(const std::string& attribute) const = 0;      // ints alone
   virtual std::string text(const std::string& attribute) const = 0;
   virtual std::string read_rows(int begin, int end, Sample sample, void* rows) = 0;
 };
@@ -66,7 +67,7 @@ class ImageCodec {
 };
 
 // Version of the classes above: the module of another build is refused.
-constexpr int kCodecInterface = 3;
+constexpr int kCodecInterface = 4;
 
 // Loads the module on the first call. Throws std::runtime_error where it does not load.
 const ImageCodec& image_codec();

@@ -165,11 +165,11 @@ ArrayDrawing draw_array(const FeatureArray& array, double size_x, double size_y,
   return drawing;
 }
 
-Layout draw_contours(const Heightmap& h, int levels) {
-  const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
+Layout draw_contours(const Heightmap& h, int levels, const std::optional<Planes>& between) {
+  const auto [low, high] = between ? *between : planes_of(h);
   LayoutCell top{"TEXTURE", {}, {}};
-  for (int k = 1; k <= levels && *high > *low; ++k) {
-    const double level = *high - (k - 0.5) / levels * (*high - *low);
+  for (int k = 1; k <= levels && high > low; ++k) {
+    const double level = high - (k - 0.5) / levels * (high - low);
     for (Polygon& polygon : polygons_below(h, level)) {
       top.polygons.push_back({k, std::move(polygon)});
       if (top.polygons.size() > 2000000)

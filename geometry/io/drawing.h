@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,9 +74,11 @@ ArrayDrawing draw_array(const FeatureArray& array, double size_x, double size_y,
                         double facet_error = 2e-9);
 
 // Any heightmap as masks: layer k of `levels` holds the contour polygons of what is deeper than
-// (k - 1/2)/levels of the whole depth; one level is a binary mask. Throws InputError above two
-// million polygons.
-Layout draw_contours(const Heightmap& h, int levels);
+// (k - 1/2)/levels of the whole depth; one level is a binary mask. The depth is that between two
+// planes, of which the pixels may cut sharp ends off; without them from the highest pixel to the
+// lowest. Throws InputError above two million polygons.
+Layout draw_contours(const Heightmap& h, int levels,
+                     const std::optional<Planes>& between = std::nullopt);
 
 // Files, the same bytes on every run: GDSII with a database unit of 1 nm (arrays of more than 32767
 // cells a side in parts), OASIS with its repetitions and a sum over all of it. Labels are texts at
@@ -83,8 +86,9 @@ Layout draw_contours(const Heightmap& h, int levels);
 void write_gds(const std::string& path, const Layout& layout);
 void write_oasis(const std::string& path, const Layout& layout);
 
-// What those two write, read back; polygons, references and labels alone. Throws InputError for
-// anything else, for files that are cut off or changed, and for units other than 1 nm.
+// What those two write, read back; polygons, references and labels alone, an array that GDSII has
+// in parts as the one that was drawn. Throws InputError for anything else, for files that are cut
+// off or changed, and for units other than 1 nm.
 Layout read_gds(const std::string& path);
 Layout read_oasis(const std::string& path);
 

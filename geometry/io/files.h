@@ -10,11 +10,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/files.h"
 #include "base/rooms.h"
+#include "geometry/facts.h"
 #include "geometry/heightmap.h"
 
 namespace papilla::geometry {
@@ -38,9 +40,10 @@ void write_tiff_float(const std::string& path, const Heightmap& h,
                       const FileInfo& info);  // um, as EXR
 void write_gsf(const std::string& path, const Heightmap& h, const FileInfo& info);
 void write_npy(const std::string& path, const Heightmap& h);
-// Binary mask, 0 or 65535: where the surface is below half its depth.
+// Binary mask, 0 or 65535: where the surface is below half its depth, which is that between two
+// planes; without them from the highest pixel to the lowest.
 void write_mask_tiff(const std::string& path, const Heightmap& h, Polarity polarity,
-                     const FileInfo& info);
+                     const FileInfo& info, const std::optional<Planes>& between = std::nullopt);
 // Preview: colours from low (dark) to high (bright) with a scale bar, and below it the colour scale
 // with its heights and the length of the bar.
 void write_png(const std::string& path, const Heightmap& h);

@@ -126,17 +126,18 @@ void reference(GdsStream& gds, const LayoutReference& r) {
   gds.empty(kElementEnd);
 }
 
+constexpr long kMostInRecord = 32767;  // columns, and rows, of an array in one record
+
 // An array in pieces that one record holds.
 std::vector<LayoutReference> parts_of(const LayoutReference& whole) {
-  constexpr long kMost = 32767;  // columns, and rows
   std::vector<LayoutReference> out;
-  for (long row = 0; row < whole.rows; row += kMost) {
-    for (long column = 0; column < whole.columns; column += kMost) {
+  for (long row = 0; row < whole.rows; row += kMostInRecord) {
+    for (long column = 0; column < whole.columns; column += kMostInRecord) {
       LayoutReference part = whole;
       part.x = static_cast<std::int32_t>(whole.x + column * whole.step_x);
       part.y = static_cast<std::int32_t>(whole.y + row * whole.step_y);
-      part.columns = std::min(kMost, whole.columns - column);
-      part.rows = std::min(kMost, whole.rows - row);
+      part.columns = std::min(kMostInRecord, whole.columns - column);
+      part.rows = std::min(kMostInRecord, whole.rows - row);
       out.push_back(part);
     }
   }
@@ -155,6 +156,33 @@ void label(GdsStream& gds, const LayoutLayer& layer) {
 }
 
 // --- reading ---
+
+// One more piece of an array at the end of `to`, along x or along y; otherwise false. The pieces
+// before the last are full.
+bool join_part(LayoutReference& to, const LayoutReference& next, bool along_x) {
+  const long count = along_x ? to.columns : to.rows;
+  const bool alike = to.array && next.array && to.cell == next.cell && to.step_x == next.step_x &&
+                     to.step_y == next.step_y &&
+                     (along_x ? to.rows == next.rows : to.columns == next.columns);
+  if (!alike || count % kMostInRecord != 0) return false;
+  if (next.x != to.x + (along_x ? count * to.step_x : 0) ||
+      next.y != to.y + (along_x ? 0 : count * to.step_y))
+    return false;
+  (along_x ? to.columns : to.rows) += along_x ? next.columns : next.rows;
+  return true;
+}
+
+// The arrays that parts_of() wrote in pieces: those of a row of pieces first, then the rows.
+std::vector<LayoutReference> wholes_of(std::vector<LayoutReference> parts) {
+  for (const bool along_x : {true, false}) {
+    std::vector<LayoutReference> out;
+    for (LayoutReference& part : parts) {
+      if (out.empty() || !join_part(out.back(), part, along_x)) out.push_back(std::move(part));
+    }
+    parts = std::move(out);
+  }
+  return parts;
+}
 
 struct GdsRecord {
   int type = 0;
@@ -234,6 +262,7 @@ class GdsReader {
         fail(fmt::format("a record 0x{:04x} that no layout of ours has", r.type));
       }
     }
+    cell.references = wholes_of(std::move(cell.references));
     if (!names_.insert(cell.name).second) fail("two cells \"" + cell.name + "\"");
     layout_.cells.push_back(std::move(cell));
   }

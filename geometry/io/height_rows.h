@@ -21,9 +21,12 @@ struct MapHeader {
   double black = 0, white = 0;         // heights of the lowest and the highest level of grey [m]
   std::optional<Polarity> polarity;    // where the file names one
   std::optional<double> tag_x, tag_y;  // sides by the file's pixels per length [m]
-  bool made = false;                   // not measured: an array, or an export of this program
-  std::string channel;                 // of a file that names what it holds
-  std::size_t marked = 0;              // pixels that a mask of the file marks
+  // Of a TIFF, how its numbers are shown (PhotometricInterpretation): 1, black is the least of
+  // them.
+  std::optional<int> photometric;
+  bool made = false;       // not measured: an array, or an export of this program
+  std::string channel;     // of a file that names what it holds
+  std::size_t marked = 0;  // pixels that a mask of the file marks
   // Of a TIFF, what ImageJ takes of its description: "unit" of the tags, heights of levels, "c0" +
   // "c1" * level in "vunit".
   std::map<std::string, std::string> imagej;

@@ -119,15 +119,11 @@ void write_bytes_image(const std::string& path, const ImageSpec& spec,
   });
 }
 
-struct HeightRange {
-  double low, high;  // m
-};
-
 // In one pass of all processors; throws InputError for a height that is no number.
-HeightRange checked_range(const std::string& path, const Heightmap& h) {
+Planes checked_range(const std::string& path, const Heightmap& h) {
   constexpr std::int64_t kChunk = 1 << 14;  // stays in the cache
   const auto size = static_cast<std::int64_t>(h.z.size());
-  std::vector<HeightRange> parts(static_cast<std::size_t>((size + kChunk - 1) / kChunk));
+  std::vector<Planes> parts(static_cast<std::size_t>((size + kChunk - 1) / kChunk));
   std::atomic<bool> finite = true;
   parallel_for(static_cast<int>(parts.size()), [&](int p) {
     const double* z = h.z.data() + std::int64_t{p} * kChunk;
@@ -140,8 +136,8 @@ HeightRange checked_range(const std::string& path, const Heightmap& h) {
         std::reduce(z, end, *z, [](double a, double b) { return b > a ? b : a; })};
   });
   if (!finite) throw InputError("cannot write " + path + ": a height is not a finite number");
-  HeightRange out = parts.front();
-  for (const HeightRange& part : parts)
+  Planes out = parts.front();
+  for (const Planes& part : parts)
     out = {std::min(out.low, part.low), std::max(out.high, part.high)};
   return out;
 }
@@ -188,7 +184,7 @@ std::string description(const Heightmap& h, const FileInfo& info, const char* po
 }
 
 void write_sixteen_bits(const std::string& path, const ImageSpec& spec, const Heightmap& h,
-                        HeightRange range, Polarity polarity, bool binary) {
+                        Planes range, Polarity polarity, bool binary) {
   const double low = range.low, span = range.high - low;
   write_rows<std::uint16_t>(path, spec, [&](int y, std::uint16_t* out) {
     for (int ix = 0; ix < h.grid.nx; ++ix) {
@@ -201,8 +197,8 @@ void write_sixteen_bits(const std::string& path, const ImageSpec& spec, const He
 }
 
 void write_sixteen(const std::string& path, const Heightmap& h, Polarity polarity, bool binary,
-                   const FileInfo& info) {
-  const HeightRange range = checked_range(path, h);
+                   const FileInfo& info, const std::optional<Planes>& between = std::nullopt) {
+  const Planes pixels = checked_range(path, h), range = between.value_or(pixels);
   ImageSpec spec = plain_spec(h.grid);
   set_resolution(spec, h.grid);
   const auto [low, high] = range;
@@ -245,7 +241,7 @@ void write_exr_repeated(const std::string& path, const Heightmap& h, int repeat,
 }
 
 void write_png16(const std::string& path, const Heightmap& h) {
-  const HeightRange range = checked_range(path, h);
+  const Planes range = checked_range(path, h);
   ImageSpec spec{.width = h.grid.nx, .height = h.grid.ny};
   for (const auto& [name, value] : {std::pair{"Gwy::XReal", h.grid.lx},
                                     {"Gwy::YReal", h.grid.ly},
@@ -283,8 +279,8 @@ void write_tiff16(const std::string& path, const Heightmap& h, Polarity polarity
 }
 
 void write_mask_tiff(const std::string& path, const Heightmap& h, Polarity polarity,
-                     const FileInfo& info) {
-  write_sixteen(path, h, polarity, true, info);
+                     const FileInfo& info, const std::optional<Planes>& between) {
+  write_sixteen(path, h, polarity, true, info, between);
 }
 
 void write_png_rgb(const std::string& path, int width, int height,

@@ -147,6 +147,13 @@ class ImageRows : public HeightRows {
       header_.step = std::abs(scale_) / (spec_.sample == Sample::U16 ? 65535 : 255);
     }
     read_tags(*in_, header_.tag_x, header_.tag_y);
+    header_.photometric = in_->whole("tiff:PhotometricInterpretation");
+    constexpr int kWhiteIsZero = 0;  // which the library turns round for some widths of numbers
+    if (header_.photometric == kWhiteIsZero) {
+      broken(file_,
+             "its grey is inverted, 0 is white (PhotometricInterpretation 0, due 1): what is high "
+             "and what is deep are not sure; save it with 0 as black");
+    }
     header_.made = in_->text("Software").starts_with("papilla ");
   }
 

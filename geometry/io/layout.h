@@ -39,8 +39,8 @@ DoseCurve read_dose_curve(const std::string& path);
 std::vector<std::uint8_t> dose_levels(const Heightmap& h, const DoseCurve& curve, DoseMap& out);
 DoseMap write_dose(const std::string& path, const Heightmap& h, const DoseCurve& curve);
 
-// Binary STL in um: one whole period of the surface, 0 to lx and ly, on a closed block that reaches
-// `base` [m] below its lowest point.
+// Binary STL in um: the whole map, 0 to lx and ly, on a closed block that reaches `base` [m] below
+// its lowest point.
 // Throws InputError above 4 million pixels.
 void write_stl(const std::string& path, const Heightmap& h, double base = 1e-6);
 

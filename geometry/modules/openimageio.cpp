@@ -67,6 +67,10 @@ class In : public ImageIn {
     const OIIO::ParamValue* p = own_.find_attribute(attribute, OIIO::TypeDesc::FLOAT);
     return p ? std::optional(*static_cast<const float*>(p->data())) : std::nullopt;
   }
+  std::optional<int> whole(const std::string& attribute) const override {
+    const OIIO::ParamValue* p = own_.find_attribute(attribute, OIIO::TypeDesc::INT);
+    return p ? std::optional(*static_cast<const int*>(p->data())) : std::nullopt;
+  }
   std::string text(const std::string& attribute) const override {
     return own_.get_string_attribute(attribute);
   }

@@ -24,6 +24,7 @@
 #include "geometry/io/layout.h"
 #include "geometry/texture.h"
 #include "report/limits.h"
+#include "report/results.h"
 #include "search/pick.h"
 
 namespace papilla::cli {
@@ -69,8 +70,8 @@ void refuse_without_effect(const ExportCommand& command, const Texture& design,
 // What is exported, and where its files go by default: beside a folder of results.
 struct ExportSourceFile {
   std::string design, beside;
-  std::string run{};     // the folder of results that it is of; "": of none
-  bool rounded = false;  // on the grid of the fab, as the build sheet has it
+  std::string run{};   // the folder of results that it is of; "": of none
+  bool built = false;  // the build sheet's design
 };
 
 ExportSourceFile source_of(const ExportCommand& command) {
@@ -146,14 +147,11 @@ int export_files(const Context& context, const ExportCommand& command) {
   const ExportSourceFile source = source_of(command);
   DesignOptions chosen = command.design;
   chosen.file = source.design;
-  const Study study = chosen.study();
+  // Only --verify simulates: without it files are drawn of a design that no simulation settles too.
+  const Study study = chosen.study(command.verify ? DesignUse::Simulated : DesignUse::Drawn);
   const ExportOptions options = options_of(command);
   refuse_without_effect(command, study.design.texture, options);
-  if (source.rounded) {
-    context.note(source.design +
-                 ", on the grid of the fab as the build sheet has it; as the search left it: "
-                 "--unrounded");
-  }
+  if (source.built) context.note(source.design + ": " + build_sheet_text(source.run));
   if (!facts(study.design.texture).relief.present)
     context.note(source.design + ": a flat surface, so every height is 0" +
                  (source.beside.empty() || !command.pick.empty()
@@ -266,9 +264,10 @@ void add_export(Command app, Context& context) {
                   "Folder; default results/NAME/export, of a folder FILE in FILE/export")
       .type_name("DIR");
   add_pick_option(command, options->pick);
-  command.add_flag("--unrounded", options->unrounded,
-                   "Of a folder of results the design as the search left it; without it the one on "
-                   "the grid of the fab that the build sheet has");
+  command.add_flag(
+      "--unrounded", options->unrounded,
+      "Of a folder of results the design as the search left it; without it that of the "
+      "build sheet, rounded to the grid of the fab");
   command.document(
       {"Writes a design as heightmaps, masks and layouts, in whole periods, and holds every file "
        "against the design again. TIFF and masks need a polarity, since a wrong one inverts the "

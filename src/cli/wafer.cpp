@@ -22,10 +22,11 @@ struct WaferCommand {
 };
 
 int make_wafer(const Context& context, const WaferCommand& command) {
-  WaferPlan plan = plan_wafer(command.path, command.overrides);
+  const DesignUse use = command.no_expected ? DesignUse::Drawn : DesignUse::Simulated;
+  WaferPlan plan = plan_wafer(command.path, command.overrides, use);
   if (const std::string none = none_keeps_text(command.path); !none.empty())
     plan.notes.push_back("warning: " + none);
-  check_conditions(plan);
+  check_conditions(plan, use);
   const WaferDrawing drawing = draw_wafer(plan);
   std::vector<std::string> files;
   std::vector<WaferMade> made;

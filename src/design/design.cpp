@@ -306,7 +306,7 @@ void fields(FieldVisitor& v, Design& s) {
   v.section({"accuracy", "speed against error"}, s.accuracy);
 }
 
-std::vector<DesignProblem> design_problems(const Design& design) {
+std::vector<DesignProblem> design_problems(const Design& design, DesignUse use) {
   std::vector<DesignProblem> out;
   for (const auto& [key, message] : problems(design.texture)) {
     out.push_back({"texture." + key, message});
@@ -324,7 +324,8 @@ std::vector<DesignProblem> design_problems(const Design& design) {
   view_problems(design.view, design.surface, out);
   relaxation_problems(design.surface, out);
   counterface_problems(design, out);
-  if (out.empty()) droplet_problems(design, out);  // of a design that has a patch and a finger
+  if (out.empty() && use == DesignUse::Simulated)
+    droplet_problems(design, out);  // of a design that has a patch and a finger
   return out;
 }
 

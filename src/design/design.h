@@ -65,7 +65,11 @@ std::vector<std::string> calibration_mismatch(const Design& design);
 struct DesignProblem {
   std::string path, message;
 };
-std::vector<DesignProblem> design_problems(const Design& design);
+// What a design is read for: to be simulated, or to be drawn into files alone, for which it may
+// have a patch that no simulation settles.
+enum class DesignUse { Simulated, Drawn };
+std::vector<DesignProblem> design_problems(const Design& design,
+                                           DesignUse use = DesignUse::Simulated);
 
 // Where `base` files are looked for besides the user's own folder: $PAPILLA_DESIGNS, the source
 // tree's and the installed designs folder, those that exist.

@@ -72,12 +72,14 @@ double without_noise(const Limited& on, double value) {
 const std::vector<ConstraintKind>& constraint_kinds() {
   static const std::vector<ConstraintKind> kinds{
       {ShapeLimit{ShapeMargin::MinHole}, "min_hole", "um", true,
-       "smallest hole or gap between features"},
+       "smallest hole or gap between features, at its floor; of gradual profiles at half the "
+       "depth"},
       {ShapeLimit{ShapeMargin::MinWall}, "min_wall", "um", true,
        "smallest wall or feature; of a stack this, min_hole and aspect_ratio are of each part "
        "alone"},
       {ShapeLimit{ShapeMargin::AspectRatio}, "aspect_ratio", "", false,
-       "largest depth / smallest width of a hole"},
+       "largest depth / smallest hole or wall: both collapse or do not release where they are "
+       "slim"},
       {FilmLimit{}, "oxide_breakdown_margin", "", true,
        "breakdown field of the dielectric / largest field in it, at the drive's amplitude and at "
        "the voltages that voltage_for asks for; a bridge or a contact at the thinnest place "

@@ -23,6 +23,9 @@ struct DesignScan {
   // Over the border of what is taken, where that is another step than between neighbours: the patch
   // left no room for the seam that is blended, or the map does not repeat as it is said to.
   std::optional<BorderSteps> step{};
+  // Of a map that is taken as it is: side of the square of it that is said to be a period [m]; 0:
+  // all of it is.
+  double period = 0;
 };
 
 // What was changed of it, and where a part alone is taken.

@@ -112,11 +112,13 @@ std::vector<std::string> scenarios_setting(const Study& study, const std::string
 std::vector<std::string> unused_of(const Study& study);
 
 // Throws InputError with every mistake.
-Study read_study(const std::string& path, const std::vector<std::string>& overrides = {});
+Study read_study(const std::string& path, const std::vector<std::string>& overrides = {},
+                 DesignUse use = DesignUse::Simulated);
 // From text in place of a file; `name` stands for it in messages. Files that it names are looked
 // for in the folder where the program runs, and bases in the designs folders too.
 Study parse_study(const std::string& text, const std::string& name,
-                  const std::vector<std::string>& overrides = {});
+                  const std::vector<std::string>& overrides = {},
+                  DesignUse use = DesignUse::Simulated);
 // Every value of the study with its origin; reads back to the same study.
 std::string resolved_toml(const Study& study);
 

@@ -113,10 +113,11 @@ void read_population(StudyFile& file) {
 }
 
 // What stands in the head of the file, and the mistakes across its fields.
-void read_head(Document& document, Design& design) {
+void read_head(Document& document, Design& design, DesignUse use) {
   read_section(document, "", design);
   if (!document.problems().empty()) return;  // values may stand for ones that could not be read
-  for (const DesignProblem& p : design_problems(design)) document.problem_at(p.path, p.message);
+  for (const DesignProblem& p : design_problems(design, use))
+    document.problem_at(p.path, p.message);
   if (const std::string wrong = uncertainty_problem(design.finger); !wrong.empty())
     document.problem_at("finger.uncertainty", wrong);
   for (const Problem& p : belief_problems(design.finger))
@@ -232,7 +233,7 @@ std::string other_kind(const Document& document) {
   return kind == kKinds.end() ? "" : kind->second;
 }
 
-Study study_of(Document document, const std::string& path) {
+Study study_of(Document document, const std::string& path, DesignUse use) {
   if (const std::string kind = other_kind(document); !kind.empty())
     throw InputError({Problem{path, 0, 0, "", "no design but " + kind}});
   document.set_hints(key_for_word);
@@ -240,7 +241,7 @@ Study study_of(Document document, const std::string& path) {
   study.file = path;
   study.name = study_name(path);
   study.study_sections = table_node();
-  read_head(document, study.design);
+  read_head(document, study.design, use);
   StudyFile file{document, study, KnownNumbers(document, study.design), {}};
   read_design_space(file);
   read_scatter(file);
@@ -257,14 +258,15 @@ Study study_of(Document document, const std::string& path) {
 
 }  // namespace
 
-Study read_study(const std::string& path, const std::vector<std::string>& overrides) {
+Study read_study(const std::string& path, const std::vector<std::string>& overrides,
+                 DesignUse use) {
   const std::string file = own_or_shipped(path);
-  return study_of(load_document(file, overrides, design_roots()), file);
+  return study_of(load_document(file, overrides, design_roots()), file, use);
 }
 
 Study parse_study(const std::string& text, const std::string& name,
-                  const std::vector<std::string>& overrides) {
-  return study_of(parse_document(text, name, overrides, design_roots()), name);
+                  const std::vector<std::string>& overrides, DesignUse use) {
+  return study_of(parse_document(text, name, overrides, design_roots()), name, use);
 }
 
 Design read_design(const std::string& path, const std::vector<std::string>& overrides) {

@@ -30,16 +30,6 @@ struct HeldAs {
 };
 constexpr int kSixteenBits = 65535;
 
-struct Planes {
-  double low, high;
-  double middle() const { return 0.5 * (low + high); }
-};
-
-Planes planes_of(const std::vector<double>& z) {
-  const auto [low, high] = std::minmax_element(z.begin(), z.end());
-  return {*low, *high};
-}
-
 // Sums of a file and its design over all pixels, [m].
 struct Compared {
   double n = 0, f = 0, d = 0, ff = 0, dd = 0, fd = 0;
@@ -66,7 +56,11 @@ struct Compared {
 class HeightsCheck {
  public:
   HeightsCheck(const ExportSource& source, HeldAs held, int repeat = 1)
-      : s_(source), held_(held), repeat_(repeat), planes_(planes_of(source.heightmap.z)) {}
+      : s_(source),
+        held_(held),
+        repeat_(repeat),
+        planes_(held.binary ? edge_planes(source.texture, source.heightmap)
+                            : planes_of(source.heightmap)) {}
 
   Faults run(const std::string& path) {
     const auto rows = open_height_rows(path, repeat_ > 1);
@@ -105,6 +99,15 @@ class HeightsCheck {
     judge_side("its height by the TIFF tags", said.tag_y, grid.ly, 1e-6);
     judge_polarity(said);
     judge_imagej(said);
+    judge_photometric(said);
+  }
+  // Other programs invert or colour what is stated to be no grey from black at 0 to white.
+  void judge_photometric(const MapHeader& said) {
+    constexpr int kBlackIsZero = 1;
+    if (said.photometric == kBlackIsZero) return;
+    faults_.push_back(fmt::format(
+        "its PhotometricInterpretation is {}, and 1 is due: grey, 0 is black",
+        said.photometric ? std::to_string(*said.photometric) : std::string("not said")));
   }
   void judge_polarity(const MapHeader& said) {
     if (!held_.says_polarity) return;
@@ -152,10 +155,11 @@ class HeightsCheck {
     number("c1", (white - black) / kSixteenBits, kSixteenBits);
   }
   double expected(double z) const {
-    if (held_.binary) return z >= planes_.middle() ? planes_.high : planes_.low;
+    if (held_.binary) return z >= half_way() ? planes_.high : planes_.low;
     return held_.above_lowest ? z - planes_.low : z;
   }
   double span() const { return planes_.high - planes_.low; }
+  double half_way() const { return 0.5 * (planes_.low + planes_.high); }
   // Of the last binary digit, of half a level, and of another processor's sines.
   double rounding() const {
     const double largest =
@@ -210,7 +214,7 @@ class HeightsCheck {
         const double miss = std::abs(file - design);
         if (miss <= allowed) continue;
         // On the threshold of a mask either side is right.
-        if (held_.binary && std::abs(z - planes_.middle()) <= 1e-9 * span()) continue;
+        if (held_.binary && std::abs(z - half_way()) <= 1e-9 * span()) continue;
         c_.off += 1;
         if (!(miss <= c_.most)) {
           c_.most = miss;
@@ -220,9 +224,7 @@ class HeightsCheck {
       }
     }
   }
-  double middle() const {
-    return held_.above_lowest ? 0.5 * (planes_.high - planes_.low) : planes_.middle();
-  }
+  double middle() const { return held_.above_lowest ? 0.5 * span() : half_way(); }
   void judge_heights() {
     if (no_numbers_ > 0) {
       faults_.push_back(fmt::format(

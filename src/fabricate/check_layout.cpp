@@ -36,7 +36,6 @@ class Rows {
  public:
   Rows(const Layout& layout, std::size_t most) : layout_(layout), most_(most) {
     place(layout.cells.back(), 0, 0, 1, 0);
-    join();
   }
   const std::vector<PolygonRow>& found() const { return rows_; }
 
@@ -57,25 +56,6 @@ class Rows {
               across ? static_cast<double>(r.step_x) : step);
       }
     }
-  }
-
-  // Rows that a file has in parts, one beside the other: GDSII holds 32767 columns an array.
-  void join() {
-    std::sort(rows_.begin(), rows_.end(), [](const PolygonRow& a, const PolygonRow& b) {
-      return std::tie(a.polygon, a.y, a.x) < std::tie(b.polygon, b.y, b.x);
-    });
-    std::vector<PolygonRow> whole;
-    for (const PolygonRow& row : rows_) {
-      const bool beside =
-          !whole.empty() && whole.back().polygon == row.polygon && whole.back().y == row.y &&
-          whole.back().columns > 1 && (row.columns == 1 || row.step == whole.back().step) &&
-          row.x == whole.back().x + static_cast<double>(whole.back().columns) * whole.back().step;
-      if (beside)
-        whole.back().columns += row.columns;
-      else
-        whole.push_back(row);
-    }
-    rows_ = std::move(whole);
   }
 
   const Layout& layout_;
@@ -202,7 +182,7 @@ Faults check_contours(const ExportSource& s, Layout& layout) {
   if (layout.cells.size() != 1 || !layout.cells[0].references.empty())
     return {"cells and references in place of plain polygons"};
   std::vector<LayoutPolygon>& found = layout.cells[0].polygons;
-  Layout drawn = draw_contours(s.heightmap, s.options.levels);
+  Layout drawn = draw_contours(s.heightmap, s.options.levels, edge_planes(s.texture, s.heightmap));
   std::vector<LayoutPolygon>& wanted = drawn.cells[0].polygons;
   std::sort(found.begin(), found.end(), before);
   std::sort(wanted.begin(), wanted.end(), before);

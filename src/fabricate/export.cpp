@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "fabricate/formats.h"
+#include "fabricate/process.h"
 
 namespace papilla::fabricate {
 namespace {
@@ -85,9 +86,25 @@ void snap_period(Texture& texture, std::vector<std::string>& warnings) {
   texture = snapped;
 }
 
+// The smallest hole or wall half-way down, where masks and contours have their edges [m]; infinite:
+// there is none. The floor of slanted walls may be far narrower, and the land between holes.
+double smallest_edge(const Texture& texture) {
+  if (const auto* stack = std::get_if<Stack>(&texture.kind)) {
+    double smallest = kInfinity;
+    for (const Texture& part : stack->parts) smallest = std::min(smallest, smallest_edge(part));
+    return smallest;
+  }
+  const TextureFacts known = facts(texture);
+  const FeatureArray* array = array_of(known);
+  if (!array || !known.relief.present) return known.margins.smallest();
+  const double width = width_at_half_depth(*array, wall_of(texture));
+  return std::min(width, array->period - width);
+}
+
 // The remedy for pixels that are too large for the smallest hole or wall [m].
 std::string more_pixels(const Grid& grid, double pixels_across, double smallest) {
-  const double pixels = 2 * std::ceil(0.5 * grid.lx * pixels_across / smallest);
+  constexpr double kSame = 1e-9;  // of a number that is whole but for its last digits
+  const double pixels = 2 * std::ceil(0.5 * grid.lx * pixels_across / smallest * (1 - kSame));
   constexpr double kMost = 1 << 14;  // 2^28 of a square
   return pixels <= kMost ? fmt::format("--pixels {:.0f} would do", pixels)
                          : fmt::format(
@@ -100,7 +117,7 @@ std::string more_pixels(const Grid& grid, double pixels_across, double smallest)
 // Of too few pixels heights have their edges elsewhere, and what follows edges means nothing.
 void judge_pixels(const Texture& texture, const Grid& grid, bool follows_edges,
                   std::vector<std::string>& warnings) {
-  const double smallest = facts(texture).margins.smallest();
+  const double smallest = smallest_edge(texture);
   const double pixel = std::max(grid.dx(), grid.dy());
   if (!std::isfinite(smallest) || !(smallest > 0)) return;
   if (const std::string lost = lost_between_pixels(texture, grid); !lost.empty()) {
@@ -115,6 +132,22 @@ void judge_pixels(const Texture& texture, const Grid& grid, bool follows_edges,
       "a pixel of {} nm is more than a quarter of the smallest hole or wall, {} nm: edges "
       "are not where the design has them; {}",
       significant(1e9 * pixel, 3), significant(1e9 * smallest, 3), more_pixels(grid, 4, smallest)));
+}
+
+// A pixel is the mean over its area: a map of sharp ridges or bottoms is shallower than its design,
+// at whose half depth masks and contours have their edges all the same.
+void judge_depth(const Texture& texture, const Heightmap& h, std::vector<std::string>& warnings) {
+  constexpr double kMost = 0.01, kEitherSide = 2;  // the end of two pixels, or within one
+  const auto depth = [](const Planes& p) { return p.high - p.low; };
+  const double is = depth(planes_of(h)), wanted = depth(edge_planes(texture, h));
+  const double miss = wanted > 0 ? 1 - is / wanted : 0;
+  if (!(miss > kMost)) return;
+  // What is missing of a sharp end is in proportion to the pixel.
+  warnings.push_back(fmt::format(
+      "the map is {} nm deep, the design {} nm: a pixel of {} nm is the mean over its area and "
+      "cuts sharp ends off; {}",
+      significant(1e9 * is, 4), significant(1e9 * wanted, 4), significant(1e9 * h.grid.dx(), 3),
+      more_pixels(h.grid, kEitherSide, h.grid.dx() * kMost / miss)));
 }
 
 // A rectangle of whole periods, its pixels nearly square.
@@ -162,8 +195,9 @@ void judge_size(Export& out, const ExportOptions& options) {
   // The height of a square is only that of its lattice.
   if (!off(grid.lx, options.size) && (options.size_y == 0 || !off(grid.ly, size_y))) return;
   const auto side = [&](double x, double y) {
-    return options.size_y > 0 ? fmt::format("{:.6g} x {:.6g} um", 1e6 * x, 1e6 * y)
-                              : fmt::format("{:.6g} um", 1e6 * x);
+    // As many digits as part sides that count as others.
+    return options.size_y > 0 ? fmt::format("{:.8g} x {:.8g} um", 1e6 * x, 1e6 * y)
+                              : fmt::format("{:.8g} um", 1e6 * x);
   };
   out.warnings.push_back(fmt::format(
       "{} were asked for, {} are written: {}", side(options.size, size_y), side(grid.lx, grid.ly),
@@ -191,7 +225,7 @@ void judge_repeat(const std::vector<ExportFormat>& formats, const ExportOptions&
 }  // namespace
 
 std::string lost_between_pixels(const Texture& texture, const Grid& grid) {
-  const double smallest = facts(texture).margins.smallest();
+  const double smallest = smallest_edge(texture);
   const double pixel = std::max(grid.dx(), grid.dy());
   if (!std::isfinite(smallest) || !(smallest > 0) || pixel <= 0.5 * smallest) return {};
   return fmt::format("a pixel of {} nm is more than half the smallest hole or wall, {} nm; {}",
@@ -219,6 +253,13 @@ std::vector<Texture> arrays_of(const Texture& texture) {
   const bool all_deep = std::all_of(out.begin(), out.end(),
                                     [](const Texture& t) { return array_of(facts(t))->deep; });
   return out.size() == 1 || all_deep ? out : std::vector<Texture>{};
+}
+
+Planes edge_planes(const Texture& texture, const Heightmap& h) {
+  const TextureFacts known = facts(texture);
+  const bool reached = known.relief.planes && !std::holds_alternative<Stack>(texture.kind) &&
+                       !std::holds_alternative<NoOutline>(known.outline);
+  return reached ? *known.relief.planes : planes_of(h);
 }
 
 std::optional<double> width_by_area(const Texture& texture, double share) {
@@ -264,6 +305,8 @@ std::vector<ExportFormat> chosen_formats(const Texture& texture, const ExportOpt
     return out;
   }
   for (const std::string& name : options.formats) {
+    if (std::any_of(out.begin(), out.end(), [&](const ExportFormat& f) { return f.name == name; }))
+      continue;  // named twice: one file
     out.push_back(find_export_format(name));
     if (const std::string why = refusal(out.back(), known, options); !why.empty())
       throw InputError(why);
@@ -328,9 +371,8 @@ std::vector<Lacking> without_each(const Stack& whole, const std::string& above) 
 // of a map that is smaller.
 Grid judged_grid(const Texture& texture, const Grid& whole) {
   constexpr double kFewest = 256, kMost = 1024;
-  const TextureFacts known = facts(texture);
-  const int pixels = static_cast<int>(
-      std::clamp(std::ceil(4 * known.period() / known.margins.smallest()), kFewest, kMost));
+  const double across = std::ceil(4 * facts(texture).period() / smallest_edge(texture));
+  const int pixels = static_cast<int>(std::clamp(across, kFewest, kMost));
   const Grid period = one_period(texture, pixels);
   const Grid own = period.lx > 0 ? period : patch_grid(texture, pixels);
   return own.size() < whole.size() ? own : whole;
@@ -428,17 +470,19 @@ void judge_edges(const std::vector<ExportFormat>& formats, Export& out) {
   const FeatureArray* array = array_of(known);
   if (!array || !known.relief.present || files.masks.empty() || files.layouts.empty()) return;
   const Heightmap& h = out.heightmap;
-  const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
-  const double middle = 0.5 * (*low + *high);
+  const double width = width_at_half_depth(*array, wall_of(out.texture));
+  if (std::abs(width - array->width) <= std::max(h.grid.dx(), h.grid.dy())) return;
+  const Planes planes = edge_planes(out.texture, h);
+  const double middle = 0.5 * (planes.low + planes.high);
   const auto deep = std::count_if(h.z.begin(), h.z.end(), [&](double z) { return z < middle; });
-  const auto width =
+  const auto drawn =
       width_by_area(out.texture, static_cast<double>(deep) / static_cast<double>(h.z.size()));
-  if (!width || std::abs(*width - array->width) <= std::max(h.grid.dx(), h.grid.dy())) return;
   out.warnings.push_back(fmt::format(
-      "{} and {} have other widths: {} are {:.4g} um wide at half their depth, where {} is drawn, "
-      "and {:.4g} um at the {}, where {} is",
-      files.masks, files.layouts, array->drawn, 1e6 * *width, files.masks, 1e6 * array->width,
-      array->deep ? "land" : "top", files.layouts));
+      "{} and {} have other widths: {} are {:.4g} um wide at half their depth, where {} is drawn "
+      "({:.4g} um by its whole pixels), and {:.4g} um at the {}, where {} is",
+      files.masks, files.layouts, array->drawn, 1e6 * width, files.masks,
+      1e6 * drawn.value_or(width), 1e6 * array->width, array->deep ? "land" : "top",
+      files.layouts));
 }
 
 Export prepared(Texture drawn, const ExportOptions& options,
@@ -455,6 +499,7 @@ Export prepared(Texture drawn, const ExportOptions& options,
   const bool contours = layout && !array;
   if (pixels || contours) judge_pixels(out.texture, grid, mask || contours, out.warnings);
   out.heightmap = generate(out.texture, grid);
+  if (pixels || contours) judge_depth(out.texture, out.heightmap, out.warnings);
   if (const std::optional<UnitCell> cell = facts(out.texture).cell) {
     out.cells_x = static_cast<int>(std::lround(grid.lx / cell->x));
     out.cells_y = static_cast<int>(std::lround(grid.ly / cell->y));

@@ -72,6 +72,11 @@ std::vector<Texture> arrays_of(const Texture& texture);
 // array.
 std::optional<double> width_by_area(const Texture& texture, double share);
 
+// The planes at shares of whose distance masks and contours of a map have their edges [m]: those
+// that the texture states and reaches, whose sharp ends pixels cut off; else the highest and the
+// lowest pixel. Of a stack the latter: where its parts do not meet, nothing is as deep as the sum.
+Planes edge_planes(const Texture& texture, const Heightmap& h);
+
 // Whether a mask of such pixels shows the texture: it has an outline, or is flat, and no pixel is
 // wider than half its smallest hole or wall.
 bool mask_shows(const Texture& texture, const ExportOptions& options);

@@ -23,7 +23,7 @@ Layout draw(const ExportSource& s, Export& out) {
     drawing.layout.layers = layers_of(s);
     return std::move(drawing.layout);
   }
-  Layout layout = draw_contours(s.heightmap, s.options.levels);
+  Layout layout = draw_contours(s.heightmap, s.options.levels, edge_planes(s.texture, s.heightmap));
   layout.layers = layers_of(s);
   out.contours = {layout.cells.back().polygons.size(), s.options.levels};
   return layout;
@@ -46,7 +46,8 @@ void tiff32(const ExportSource& s, const std::string& path, Export&) {
 }
 
 void mask(const ExportSource& s, const std::string& path, Export&) {
-  write_mask_tiff(path, s.heightmap, *s.options.polarity, s.info);
+  write_mask_tiff(path, s.heightmap, *s.options.polarity, s.info,
+                  edge_planes(s.texture, s.heightmap));
 }
 
 void gsf(const ExportSource& s, const std::string& path, Export&) {
@@ -159,7 +160,7 @@ constexpr ExportFormat kFormats[]{
      .check = check_oasis},
     {.name = "stl",
      .file = "texture.stl",
-     .holds = "triangles in um, one period on a closed block",
+     .holds = "triangles in um, the whole map on a closed block",
      .asked_only = true,
      .write = stl,
      .check = check_stl},

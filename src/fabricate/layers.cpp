@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cctype>
 #include <string>
 
@@ -39,13 +38,8 @@ LayoutLayer layer_of(const FeatureArray& array, double depth) {
 
 std::vector<LayoutLayer> layers_of(const ExportSource& source) {
   const TextureFacts known = facts(source.texture);
-  const std::vector<double>& z = source.heightmap.z;
-  const auto depth_of_map = [&] {
-    const auto [low, high] = std::minmax_element(z.begin(), z.end());
-    return *high - *low;
-  };
-  const auto stated = known.relief.height();
-  const double depth = stated ? *stated : depth_of_map();
+  const Planes planes = edge_planes(source.texture, source.heightmap);
+  const double depth = planes.high - planes.low;
   if (const FeatureArray* array = array_of(known)) return {layer_of(*array, depth)};
   const int levels = source.options.levels;
   std::vector<LayoutLayer> out;
@@ -54,8 +48,7 @@ std::vector<LayoutLayer> layers_of(const ExportSource& source) {
                    fmt::format("tone: polygons are deep, what is around them is high; kind: {}; "
                                "edge {} of {} below the highest place{}",
                                texture_name(source.texture),
-                               length((k - 0.5) / levels * depth_of_map(), "nm"),
-                               length(depth_of_map(), "nm"),
+                               length((k - 0.5) / levels * depth, "nm"), length(depth, "nm"),
                                known.cell ? "; pitch " + length(known.cell->x, "um") : "")});
   }
   return out;

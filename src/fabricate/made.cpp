@@ -228,8 +228,22 @@ class NearestEdge {
   std::vector<std::vector<Segment>> squares_;
 };
 
-// Heights of one cell of the master.
-Heightmap etched(const MaskedArray& array, const Field& light, const Process& process) {
+// The middle of what is deep [m]: the lowest place, also where walls meet above the depth.
+std::pair<double, double> lowest_place(const FeatureArray& array, const Grid& cell) {
+  if (array.deep) return places(array, cell).front();
+  // Between three pillars of a hexagonal lattice, between four of a square one, between two ridges.
+  const bool hexagons =
+      array.lattice == Lattice::Hexagonal && array.shape == FeatureArray::Shape::Disc;
+  return hexagons ? std::pair{0.75 * cell.lx, 5.0 / 12 * cell.ly} : std::pair{0.0, 0.0};
+}
+
+// One cell of the master.
+struct Etched {
+  double deep_share = 0;  // of its area, below half the depth that is etched
+  double depth = 0;       // of its lowest place [m]
+};
+
+Etched etched(const MaskedArray& array, const Field& light, const Process& process) {
   const WallProfile profile(array.etch, array.etched.wall_angle, array.etched.edge_radius);
   const double opening = process.resist_bias + process.undercut * array.etch;
   constexpr int kPixels = 192;
@@ -238,29 +252,29 @@ Heightmap etched(const MaskedArray& array, const Field& light, const Process& pr
   const std::vector<Segment> edge = resist_edge(light);
   if (edge.empty()) throw InputError("the resist does not open at the edges of its features");
   const NearestEdge nearest(edge, light.grid, reach);
-  Heightmap out{{kPixels, 2 * static_cast<int>(std::lround(0.5 * light.grid.ly / pixel)),
-                 light.grid.lx, light.grid.ly},
-                {}};
-  out.z.resize(out.grid.size());
-  for (int iy = 0; iy < out.grid.ny; ++iy) {
-    for (int ix = 0; ix < out.grid.nx; ++ix) {
-      const double x = out.grid.x(ix), y = out.grid.y(iy);
-      const double from = nearest.distance(x, y);
-      const double inside = light.at(x, y) > kHalfLight ? from : -from;
-      out(ix, iy) = -profile.mean_drop(inside + opening, pixel);
+  const auto inside = [&](double x, double y) {
+    const double from = nearest.distance(x, y);
+    return opening + (light.at(x, y) > kHalfLight ? from : -from);
+  };
+  Etched out;
+  const Grid grid{kPixels, 2 * static_cast<int>(std::lround(0.5 * light.grid.ly / pixel)),
+                  light.grid.lx, light.grid.ly};
+  const double half_way = profile.inside(0.5 * array.etch);
+  double deep = 0;  // pixels
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    for (int ix = 0; ix < grid.nx; ++ix) {
+      const double from = inside(grid.x(ix), grid.y(iy)) - half_way;
+      deep += std::clamp(from / pixel + 0.5, 0.0, 1.0);
     }
   }
+  out.deep_share = deep / static_cast<double>(grid.size());
+  const auto [x, y] = lowest_place(array.mask, light.grid);
+  out.depth = profile.drop(inside(x, y));
   return out;
 }
 
-double mean_height(const Heightmap& h) {
-  double sum = 0;
-  for (const double z : h.z) sum += z;
-  return sum / static_cast<double>(h.z.size());
-}
-
 // The width of features by the share of the area that is deep.
-double width_by_volume(const FeatureArray& array, double deep_share, const Grid& cell) {
+double width_by_share(const FeatureArray& array, double deep_share, const Grid& cell) {
   const double share = array.deep ? deep_share : 1 - deep_share;
   if (array.shape == FeatureArray::Shape::Line) return share * cell.lx;
   const auto features = static_cast<double>(places(array, cell).size());
@@ -274,17 +288,23 @@ bool MadeArray::as_wanted() const { return left().empty(); }
 std::vector<std::string> MadeArray::left() const {
   constexpr double kLength = 2e-9, kShare = 0.01, kAngle = 0.5 * kPi / 180;
   std::vector<std::string> out;
-  const auto judge = [&](const char* name, double made, double wanted, double allowed) {
+  const auto judge = [&](const char* name, double made, double wanted, double allowed,
+                         const char* why = "") {
     if (std::abs(made - wanted) <= allowed) return;
-    out.push_back(fmt::format("{} {:.5g} nm, wanted {:.5g} nm ({:+.2g} %)", name, 1e9 * made,
-                              1e9 * wanted, 100 * (made / wanted - 1)));
+    out.push_back(fmt::format("{} {:.5g} nm, wanted {:.5g} nm ({:+.2g} %){}", name, 1e9 * made,
+                              1e9 * wanted, 100 * (made / wanted - 1), why));
   };
   judge("width", width, wanted_width, kLength);
-  judge("depth", depth, wanted_depth, kShare * wanted_depth);
+  judge("depth", depth, wanted_depth, kShare * wanted_depth,
+        walls_meet ? ": its walls meet above it; steeper walls, or more room between them" : "");
   judge("period", period, wanted_period, kLength);
   if (std::abs(wall_angle - wanted_wall_angle) > kAngle) {
     out.push_back(fmt::format("walls of {:.4g} deg, wanted {:.4g} deg: no mask changes them",
                               wall_angle * 180 / kPi, wanted_wall_angle * 180 / kPi));
+  }
+  if (std::abs(edge_radius - wanted_edge_radius) > kLength) {
+    out.push_back(fmt::format("rims of {:.4g} nm, wanted {:.4g} nm: no mask changes them",
+                              1e9 * edge_radius, 1e9 * wanted_edge_radius));
   }
   return out;
 }
@@ -293,25 +313,19 @@ MadeArray made_of(const MaskedArray& array, const std::vector<Polygon>& polygons
                   const Process& process) {
   MadeArray out;
   const Field light = exposure(array.mask, polygons, process.blur());
-  out.surface = etched(array, light, process);
+  const Etched master = etched(array, light, process);
   const double along = 1 - process.shrinkage, up = 1 - process.height_shrinkage;
-  out.surface.grid.lx *= along;
-  out.surface.grid.ly *= along;
-  for (double& z : out.surface.z) z *= up;
-  out.depth = up * array.etch;
+  out.depth = up * master.depth;
+  out.walls_meet = master.depth < (1 - 1e-9) * array.etch;  // but for rounding
   out.wanted_depth = array.wall.depth;
   out.period = along * array.mask.period;
   out.wanted_period = array.wanted.period;
   out.wall_angle = std::atan(std::tan(array.etched.wall_angle) * up / along);
   out.wanted_wall_angle = array.wall.wall_angle;
-  out.width =
-      width_by_volume(array.wanted, -mean_height(out.surface) / out.depth, out.surface.grid);
-  Grid cell{out.surface.grid.nx, out.surface.grid.ny, array.wanted.period,
-            array.wanted.period / out.surface.grid.lx * out.surface.grid.ly};
-  const Heightmap wanted = generate(array.texture, cell);
-  const double top = array.wanted.deep ? 0 : array.wall.depth;
-  out.wanted_width =
-      width_by_volume(array.wanted, (top - mean_height(wanted)) / array.wall.depth, cell);
+  out.edge_radius = along * array.etched.edge_radius;
+  out.wanted_edge_radius = array.wall.edge_radius;
+  out.width = along * width_by_share(array.wanted, master.deep_share, light.grid);
+  out.wanted_width = width_at_half_depth(array.wanted, array.wall);
   return out;
 }
 

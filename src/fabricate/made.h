@@ -12,14 +12,16 @@ namespace papilla::fabricate {
 
 // Of one array; lengths as made and as wanted [m], angles [rad].
 struct MadeArray {
-  Heightmap surface;  // one cell of the lattice, zero is the land
-  // By the volume over the depth: the width at half the depth of straight walls.
+  // At half the depth that is etched, by the area below it: what a mask is drawn to keep, whatever
+  // walls the etch leaves.
   double width = 0, wanted_width = 0;
-  double depth = 0, wanted_depth = 0;
+  double depth = 0, wanted_depth = 0;  // of the lowest place
+  bool walls_meet = false;             // above the depth that is etched
   double period = 0, wanted_period = 0;
   double wall_angle = 0, wanted_wall_angle = 0;
+  double edge_radius = 0, wanted_edge_radius = 0;  // of the rims
 
-  // Lengths along the surface within 2 nm, depth within 1 %, walls within half a degree.
+  // Lengths along the surface and rims within 2 nm, depth within 1 %, walls within half a degree.
   bool as_wanted() const;
   // What is otherwise, in words; empty: as wanted.
   std::vector<std::string> left() const;

@@ -123,11 +123,6 @@ double drawn_width(FeatureArray mask, double blur, double width) {
                   mask.drawn, 1e9 * width));
 }
 
-WallSection wall_of(Texture& texture) {
-  const Roles role = roles(texture);
-  return {*role.depth, *role.wall_angle, *role.edge_radius};
-}
-
 // Rims of the etch that leave nothing of the land, between features this wide at it. The design's
 // own were held against the land that it wants, not against what an undercut leaves of it.
 void check_rims(const MaskedArray& array, const Process& process, double width) {
@@ -145,6 +140,11 @@ double width_at_land(const FeatureArray& wanted, const WallSection& wall,
 }
 
 }  // namespace
+
+WallSection wall_of(Texture texture) {
+  const Roles role = roles(texture);
+  return {*role.depth, *role.wall_angle, *role.edge_radius};
+}
 
 bool Process::none() const {
   Process neutral;
@@ -197,10 +197,8 @@ double stretch(const Process& process) {
 
 // The mask of one array whose period is drawn so [m].
 MaskedArray masked_at(const Texture& texture, const Process& process, double period) {
-  MaskedArray out{texture, {}, {}, {}, 0, {}};
   const TextureFacts known = facts(texture);
-  out.wanted = *array_of(known);
-  out.wall = wall_of(out.texture);
+  MaskedArray out{*array_of(known), wall_of(texture), {}, 0, {}};
   const double along = stretch(process),
                up = process.compensate ? 1 / (1 - process.height_shrinkage) : 1;
   out.etch = up * out.wall.depth;

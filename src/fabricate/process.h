@@ -32,13 +32,15 @@ void fields(FieldVisitor& v, Process& s);
 
 // An array of features that is wanted, and how it is made: drawn on the 1 nm grid of layouts.
 struct MaskedArray {
-  Texture texture;      // that is wanted, of one array
   FeatureArray wanted;  // its outline
   WallSection wall;     // its walls
   FeatureArray mask;    // as drawn
   double etch = 0;      // depth to etch [m]
   WallSection etched;   // the walls that the etch leaves
 };
+
+// The walls of an array of features.
+WallSection wall_of(Texture texture);
 
 // The width of a mask's features in the resist, after the blur of the exposure: where the light is
 // 1/2; of discs by their area. 0 where nothing opens, the period where all of it does. Eq.

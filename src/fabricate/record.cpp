@@ -29,7 +29,7 @@ class RecordReader {
 
   ExportRecord read() const {
     ExportRecord out;
-    out.design = parse_study(text("design"), path_).design;
+    out.design = parse_study(text("design"), path_, {}, DesignUse::Drawn).design;
     ExportOptions& o = out.options;
     o.size = number("size", 0, 1);
     o.size_y = number("size_y", 0, 1);

@@ -38,7 +38,7 @@ double top_of(const Texture& texture, const Grid& grid) {
 
 // The design beside the files of a run, which names a belief: no file is made by it.
 FileVerdict verify_design(const ExportRecord& record, const std::string& path) {
-  Design beside = read_design(path), made_from = record.design;
+  Design beside = read_study(path, {}, DesignUse::Drawn).design, made_from = record.design;
   beside.finger.belief.clear();
   made_from.finger.belief.clear();  // records of earlier versions have it
   if (beside == made_from) return {path, FileState::Sound, {}};
@@ -148,14 +148,6 @@ std::vector<FileVerdict> verify_folder(const std::string& folder, const std::str
   return out;
 }
 
-Verification verify_export(const ExportRecord& record, double tolerance) {
-  Study judged;
-  judged.design = record.design;
-  judged.design.texture = compensated(record.design.texture, record.options.bias);
-  judged.constraints = record.limits;
-  return verify_export(judged, heights_file(record.files), tolerance);
-}
-
 namespace {
 
 // A patch of the design with pixels of the file's size.
@@ -196,13 +188,16 @@ bool one_mask_is_as_narrow(const Constraint& limit, const Stack& stack, const Gr
   });
 }
 
-}  // namespace
-
-Verification verify_export(const Study& study, const std::string& file, double tolerance,
-                           double width) {
+// against: what the design of the study is.
+Verification held_against(const std::string& against, const Study& study, const std::string& file,
+                          double tolerance, double width) {
   const Design& design = study.design;
+  // Files are made of designs that cannot be simulated too: of droplets without end.
+  if (const auto wrong = design_problems(design); !wrong.empty())
+    throw InputError("the file cannot be simulated: " + wrong[0].path + ": " + wrong[0].message);
   const Heightmap h = read_heightmap(file, width);
   Verification out;
+  out.against = against;
   out.pixels = measure_margins(h);
   // Grains of a surface without edges are no holes and walls.
   if (!std::isfinite(facts(design.texture).margins.smallest()))
@@ -260,11 +255,27 @@ Verification verify_export(const Study& study, const std::string& file, double t
   out.loss = std::abs(out.file - out.design) / std::abs(out.design);
   if (!(out.loss <= tolerance)) {
     out.faults.push_back(
-        fmt::format("{} of the file is {:.4g}, of the design {:.4g}: {:.2g} % off, "
-                    "more than {:.2g} %",
-                    out.merit, out.file, out.design, 100 * out.loss, 100 * tolerance));
+        fmt::format("{} of the file is {:.4g}, of {} {:.4g}: {:.2g} % off, more than {:.2g} %",
+                    out.merit, out.file, out.against, out.design, 100 * out.loss, 100 * tolerance));
   }
   return out;
+}
+
+}  // namespace
+
+Verification verify_export(const Study& study, const std::string& file, double tolerance,
+                           double width) {
+  return held_against(Verification{}.against, study, file, tolerance, width);
+}
+
+Verification verify_export(const ExportRecord& record, double tolerance) {
+  Study drawn;
+  drawn.design = record.design;
+  drawn.design.texture = compensated(record.design.texture, record.options.bias);
+  drawn.constraints = record.limits;
+  const bool undone = drawn.design.texture != record.design.texture;
+  return held_against(undone ? "the design with the process undone" : Verification{}.against, drawn,
+                      heights_file(record.files), tolerance, 0);
 }
 
 }  // namespace papilla::fabricate

@@ -43,17 +43,19 @@ struct Verification {
   double loss = 0;                   // |file - design| / |design|
   std::vector<std::string> faults;   // what is beyond a limit; empty: sound
   std::vector<std::string> notes{};  // what no limit speaks of, and a maker should know
+  // What `design` is of: files that undo a process hold another texture than is to be made.
+  std::string against = "the design";
 };
 
 // File: heights written by export_design. Limits: the constraints min_hole and
 // min_wall of the study, kept to a pixel (of a stack each part by itself: a place between the
 // features of two parts is noted); the loss of merit at most `tolerance`. Cost: two
 // evaluations at draft level. width [m]: where the file does not say. Throws InputError for a file
-// that cannot be read.
+// that cannot be read, and for a design that cannot be simulated.
 Verification verify_export(const Study& study, const std::string& file, double tolerance,
                            double width = 0);
-// The same of a record's most exact file of heights, of what the process makes of it. Throws
-// InputError where there is none.
+// The same of a record's most exact file of heights, against the design as the files have it: with
+// the process undone. Throws InputError where there is none.
 Verification verify_export(const ExportRecord& record, double tolerance);
 
 }  // namespace papilla::fabricate

@@ -65,11 +65,12 @@ std::vector<Unnamed> of_study(const Study& study, std::vector<std::string>& note
 }
 
 // The front of a run, of the design that is built the build sheet's rounded numbers; else its best.
-std::vector<Unnamed> of_results(const std::string& path) {
+std::vector<Unnamed> of_results(const std::string& path, DesignUse use) {
   const Folder folder(path);
   std::vector<Unnamed> out;
   const auto design_of = [&](const std::string& file) {
-    return folder.has(file) ? std::optional(read_design(folder.file(file))) : std::nullopt;
+    return folder.has(file) ? std::optional(read_study(folder.file(file), {}, use).design)
+                            : std::nullopt;
   };
   const std::optional<Design> best = design_of("best/design.toml"),
                               rounded = design_of("best/build.toml");
@@ -86,9 +87,10 @@ std::vector<Unnamed> of_results(const std::string& path) {
   return out;
 }
 
-std::vector<Unnamed> designs_behind(const std::string& path, std::vector<std::string>& notes) {
-  if (std::filesystem::is_directory(path)) return of_results(path);
-  return of_study(read_study(path), notes);
+std::vector<Unnamed> designs_behind(const std::string& path, DesignUse use,
+                                    std::vector<std::string>& notes) {
+  if (std::filesystem::is_directory(path)) return of_results(path, use);
+  return of_study(read_study(path, {}, use), notes);
 }
 
 // D01 and so on from a number on, the first that no other design has.
@@ -112,7 +114,8 @@ void check_name(const std::string& name, std::set<std::string>& taken) {
     throw InputError("design.name: two designs are called \"" + name + "\"");
 }
 
-std::vector<Treatment> treatments_of(const WaferList& list, std::vector<std::string>& notes) {
+std::vector<Treatment> treatments_of(const WaferList& list, DesignUse use,
+                                     std::vector<std::string>& notes) {
   std::vector<Treatment> out;
   std::set<std::string> names;  // those that are given go before those that are counted
   for (const WaferDesign& d : list.designs) names.insert(d.name);
@@ -120,14 +123,14 @@ std::vector<Treatment> treatments_of(const WaferList& list, std::vector<std::str
   for (const WaferDesign& d : list.designs) {
     mistakes.of([&] {
       const std::string name = d.name.empty() ? free_name(out.size() + 1, names) : d.name;
-      out.push_back({name, read_design(d.file), d.repeats});
+      out.push_back({name, read_study(d.file, {}, use).design, d.repeats});
     });
   }
   mistakes.tell();
   if (!list.designs_of.empty()) {
     std::vector<std::string> others;
     std::size_t number = 0;
-    for (Unnamed& d : designs_behind(list.designs_of, others)) {
+    for (Unnamed& d : designs_behind(list.designs_of, use, others)) {
       const std::string name = free_name(++number, names);
       if (!d.note.empty()) notes.push_back(name + ": " + d.note);
       // A run or a study may say that a surface is flat by a kind of texture without depth.
@@ -488,11 +491,12 @@ const char* field_kind_name(FieldKind kind) {
   return "";
 }
 
-WaferPlan plan_wafer(const std::string& path, const std::vector<std::string>& overrides) {
+WaferPlan plan_wafer(const std::string& path, const std::vector<std::string>& overrides,
+                     DesignUse use) {
   WaferPlan plan;
   plan.list = read_list(path, overrides);
   check_shape(plan.list.wafer);
-  plan.treatments = treatments_of(plan.list, plan.notes);
+  plan.treatments = treatments_of(plan.list, use, plan.notes);
   plan.pitch_x = plan.list.wafer.pad_width + plan.list.wafer.gap;
   plan.pitch_y = plan.list.wafer.pad_height + plan.list.wafer.gap;
   const std::size_t reference = reference_of(plan), flat = plan.treatments.size();

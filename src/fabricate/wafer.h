@@ -98,8 +98,9 @@ struct WaferPlan {
 
 // path: LIST.toml with a section [wafer] or designs of its own, a study or design (itself, and each
 // number of its texture that varies at both ends), or a folder of results (best and front). Throws
-// InputError with every mistake.
-WaferPlan plan_wafer(const std::string& path, const std::vector<std::string>& overrides = {});
+// InputError with every mistake. use: whether what is expected of its designs is worked out too.
+WaferPlan plan_wafer(const std::string& path, const std::vector<std::string>& overrides = {},
+                     DesignUse use = DesignUse::Simulated);
 
 // A condition that a field is measured under.
 struct WaferCondition {

@@ -61,14 +61,13 @@ std::vector<Etch> contour_etches(const Texture& texture, int levels, const Proce
         "the process is undone for holes, pillars and grooves alone; its relief is "
         "gradual");
   const Heightmap h = one_cell(texture);
-  const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
-  const double whole = known.relief.height().value_or(*high - *low);
+  const Planes planes = edge_planes(texture, h);
   std::vector<Etch> out(static_cast<std::size_t>(levels));
-  Layout lines = draw_contours(h, levels);
+  Layout lines = draw_contours(h, levels, planes);
   for (LayoutPolygon& p : lines.cells.back().polygons)
     out[static_cast<std::size_t>(p.layer - 1)].contours.push_back(std::move(p.outline));
   for (Etch& etch : out) {
-    etch.depth = whole / levels;
+    etch.depth = (planes.high - planes.low) / levels;
     etch.cell_x = h.grid.lx;
     etch.cell_y = h.grid.ly;
   }

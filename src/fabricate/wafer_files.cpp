@@ -304,13 +304,14 @@ std::vector<Expected> expected_of(const Treatment& treatment, const WaferConditi
 
 }  // namespace
 
-void check_conditions(const WaferPlan& plan) {
+void check_conditions(const WaferPlan& plan, DesignUse use) {
   std::vector<Problem> problems;
   for (std::size_t i = 0; i + 1 < plan.treatments.size(); ++i) {  // the flat one has no own
     const Treatment& t = plan.treatments[i];
     std::set<std::pair<std::string, std::string>> said;  // of the first condition alone
     for (const auto& [scenery, humidities] : sceneries_of(plan.list.conditions, t.design)) {
-      for (const DesignProblem& p : design_problems(design_under(t.design, scenery, humidities))) {
+      const Design under = design_under(t.design, scenery, humidities);
+      for (const DesignProblem& p : design_problems(under, use)) {
         if (!said.insert({p.path, p.message}).second) continue;
         problems.push_back({"", 0, 0, p.path,
                             fmt::format("{} at {}: {}", t.name, scenery_text(scenery), p.message)});
@@ -403,7 +404,7 @@ std::vector<WaferMade> made_of_wafer(const WaferDrawing& drawing, const Layout& 
 }
 
 WaferVerdict verify_wafer(const std::string& folder, const FileProgress& progress) {
-  const WaferPlan plan = plan_wafer(folder + "/" + kWaferRecord);
+  const WaferPlan plan = plan_wafer(folder + "/" + kWaferRecord, {}, DesignUse::Drawn);
   const WaferDrawing drawing = draw_wafer(plan);
   WaferVerdict out;
   std::optional<Layout> found;
@@ -421,7 +422,7 @@ WaferVerdict verify_wafer(const std::string& folder, const FileProgress& progres
   for (const Treatment& t : plan.treatments) {
     const std::string path = folder + "/" + design_file(t);
     out.files.push_back(judged(path, [&]() -> std::vector<std::string> {
-      if (read_design(path) == t.design) return {};
+      if (read_study(path, {}, DesignUse::Drawn).design == t.design) return {};
       return {"is another design than stands on the wafer"};
     }));
   }

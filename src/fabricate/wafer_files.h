@@ -30,8 +30,9 @@ using Expectations = std::vector<std::vector<Expected>>;
 Expectations expect(const WaferPlan& plan, bool model, const FileProgress& progress = {});
 
 // Throws InputError for each condition under which the model refuses a design: no film under a
-// voltage, more of it than the source has, a pin that flows under the load.
-void check_conditions(const WaferPlan& plan);
+// voltage, more of it than the source has, a pin that flows under the load. use: whether what is
+// expected there is worked out too.
+void check_conditions(const WaferPlan& plan, DesignUse use = DesignUse::Simulated);
 
 // Voltages under which a film breaks down, of which nothing is expected, or is at risk under a
 // bridge or a contact; a line a design and voltage.

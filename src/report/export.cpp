@@ -71,11 +71,13 @@ Json verdict_files(const ExportVerdict& verdict) {
 std::string felt_line(const Verification& v) {
   const std::string edges =
       std::isfinite(v.pixels.min_hole) || std::isfinite(v.pixels.min_wall)
-          ? fmt::format("smallest hole {:.3g} um, smallest wall {:.3g} um (pixel {:.2g} um); ",
-                        1e6 * v.pixels.min_hole, 1e6 * v.pixels.min_wall, 1e6 * v.pixels.pixel)
+          ? fmt::format(
+                "at half the depth smallest hole {:.3g} um, smallest wall {:.3g} um (pixel {:.2g} "
+                "um); ",
+                1e6 * v.pixels.min_hole, 1e6 * v.pixels.min_wall, 1e6 * v.pixels.pixel)
           : std::string();
-  std::string out = edges + fmt::format("{} {:.4g}, of the design {:.4g}: {:.2g} % off\n", v.merit,
-                                        v.file, v.design, 100 * v.loss);
+  std::string out = edges + fmt::format("{} {:.4g}, of {} {:.4g}: {:.2g} % off\n", v.merit, v.file,
+                                        v.against, v.design, 100 * v.loss);
   for (const std::string& note : v.notes) out += note + '\n';
   return out;
 }
@@ -85,6 +87,7 @@ Json verification_json(const Verification& v) {
            {"min_wall", json_number(v.pixels.min_wall)},
            {"pixel", v.pixels.pixel},
            {"merit", v.merit},
+           {"against", v.against},
            {"design", json_number(v.design)},
            {"file", json_number(v.file)},
            {"loss", json_number(v.loss)},
@@ -135,7 +138,7 @@ bool has_pixels(const Export& result) {
 
 std::string size_line(const Export& result) {
   const Grid& grid = result.heightmap.grid;
-  std::string out = fmt::format("size {:.6g} x {:.6g} um", 1e6 * grid.lx, 1e6 * grid.ly);
+  std::string out = fmt::format("size {:.8g} x {:.8g} um", 1e6 * grid.lx, 1e6 * grid.ly);
   if (has_pixels(result))
     out += fmt::format(", {} x {} pixels of {:.4g} x {:.4g} nm", grid.nx, grid.ny, 1e9 * grid.dx(),
                        1e9 * grid.dy());
@@ -144,7 +147,7 @@ std::string size_line(const Export& result) {
                        1e6 * grid.lx / result.cells_x, 1e6 * grid.ly / result.cells_y);
   }
   if (result.repeat > 1) {
-    out += fmt::format("; the EXR {0} x {0} times that: {1:.6g} x {2:.6g} um", result.repeat,
+    out += fmt::format("; the EXR {0} x {0} times that: {1:.8g} x {2:.8g} um", result.repeat,
                        1e6 * result.repeat * grid.lx, 1e6 * result.repeat * grid.ly);
   }
   return out + '\n';

@@ -335,10 +335,36 @@ OptimiseResult optimise_to_folder(const Study& study, OptimiseOptions options) {
   return optimise(study, options);
 }
 
-std::string recommendation_of(const std::string& folder) {
+namespace {
+
+// What the folder's record of the run says; an empty object where there is none that can be read.
+Json record_of_run(const std::string& folder) {
   const Folder results(folder);
-  if (!results.has("run.json")) return {};
-  return Json::parse(results.read("run.json")).value("recommendation", std::string());
+  if (!results.has("run.json")) return Json::object();
+  Json run = Json::parse(results.read("run.json"), nullptr, false);
+  return run.is_object() ? run : Json::object();
+}
+
+}  // namespace
+
+std::string recommendation_of(const std::string& folder) {
+  return record_of_run(folder).value("recommendation", std::string());
+}
+
+std::string build_sheet_text(const std::string& folder) {
+  const Json run = record_of_run(folder), build = run.value("build", Json());
+  if (run.value("interrupted", Json()) == true)
+    return "the run was interrupted before its best design was rounded to the grid of the fab: "
+           "these are the numbers as the search left them";
+  if (!build.is_object()) return "as the build sheet has it; as the search left it: --unrounded";
+  if (run.value("advice", Json()) == "leave flat")
+    return "finish and drive are those of the study file, which are not rounded";
+  if (run.value("grid", Json()) == 0) return "as the search left it: search.rounding is 0";
+  return build.value("on_grid", Json()) == true
+             ? "on the grid of the fab as the build sheet has it; as the search left it: "
+               "--unrounded"
+             : "not all on the grid of the fab: summary.md says why; as the search left it: "
+               "--unrounded";
 }
 
 void write_results(const ResultFiles& files) { Writer(files).write(); }

@@ -309,13 +309,13 @@ std::string problems(const std::string& text) {
 
 TEST(StudySections, SayWhatTheyExpect) {
   const std::string wish = "[objective]\nmaximise = \"mean(modulation)\"\n";
-  EXPECT_EQ(problems(wish + "[design_space]\n\"finger.load\" = [\"1 N\", \"2 N\"]\n"), "");
-  EXPECT_EQ(problems("[design_space]\n\"finger.load\" = [\"1 N\", \"2 N\"]\n"),
+  EXPECT_EQ(problems(wish + "[design_space]\n\"drive.amplitude\" = [\"1 V\", \"2 V\"]\n"), "");
+  EXPECT_EQ(problems("[design_space]\n\"drive.amplitude\" = [\"1 V\", \"2 V\"]\n"),
             "1:1 objective: a study needs `maximise`, `minimise` or `target`, e.g. maximise = "
             "\"mean(modulation)\"\n");
   for (const char* enough : {"minimise = \"mean(friction)\"", "target = { modulation = 0.5 }"})
     EXPECT_EQ(problems(std::string("[objective]\n") + enough +
-                       "\n[design_space]\n\"finger.load\" = [\"1 N\", \"2 N\"]\n"),
+                       "\n[design_space]\n\"drive.amplitude\" = [\"1 V\", \"2 V\"]\n"),
               "");
   EXPECT_EQ(problems(wish), "");  // no variables: no study
   EXPECT_EQ(problems("design_space = 3\n"),
@@ -342,41 +342,62 @@ TEST(StudySections, SayWhatTheyExpect) {
 TEST(StudySections, OfVariablesSayWhatABoundIs) {
   const auto variable = [](const std::string& value) {
     return problems(
-        "[objective]\nmaximise = \"mean(modulation)\"\n[design_space]\n\"finger.load\" "
+        "[objective]\nmaximise = \"mean(modulation)\"\n[design_space]\n\"drive.amplitude\" "
         "= " +
         value + "\n");
   };
   const std::string expected =
-      " design_space.finger.load: expected [low, high], { choice = [...] } or { range = [low, "
+      " design_space.drive.amplitude: expected [low, high], { choice = [...] } or { range = [low, "
       "high], exclude = [[from, to]] }";
-  EXPECT_EQ(variable("3"), "5:17" + expected + ", got 3\n");
-  EXPECT_EQ(variable("[\"1 N\"]"), "5:17" + expected + ", got a list\n");
-  EXPECT_EQ(variable("[\"1 N\", \"2 N\", \"3 N\"]"), "5:17" + expected + ", got a list\n");
-  EXPECT_EQ(variable("{ choice = [\"2 N\"] }"), "");
-  EXPECT_EQ(variable("{ choice = [] }"), "5:28" + expected + ", got a list\n");
-  EXPECT_EQ(variable("{ choice = [\"2 N\"], more = 1 }"), "5:17" + expected + "\n");
-  EXPECT_EQ(variable("{ range = [\"1 N\", \"2 N\"], exclude = [] }"), "");
-  EXPECT_EQ(variable("{ range = [\"1 N\", \"2 N\"], exclude = 3 }"),
-            "5:27" + expected + ", got 3\n");
-  EXPECT_EQ(variable("{ range = [\"1 N\", \"2 N\"], exclude = [], more = 1 }"),
-            "5:17" + expected + "\n");
+  EXPECT_EQ(variable("3"), "5:21" + expected + ", got 3\n");
+  EXPECT_EQ(variable("[\"1 V\"]"), "5:21" + expected + ", got a list\n");
+  EXPECT_EQ(variable("[\"1 V\", \"2 V\", \"3 V\"]"), "5:21" + expected + ", got a list\n");
+  EXPECT_EQ(variable("{ choice = [\"2 V\"] }"), "");
+  EXPECT_EQ(variable("{ choice = [] }"), "5:32" + expected + ", got a list\n");
+  EXPECT_EQ(variable("{ choice = [\"2 V\"], more = 1 }"), "5:21" + expected + "\n");
+  EXPECT_EQ(variable("{ range = [\"1 V\", \"2 V\"], exclude = [] }"), "");
+  EXPECT_EQ(variable("{ range = [\"1 V\", \"2 V\"], exclude = 3 }"),
+            "5:31" + expected + ", got 3\n");
+  EXPECT_EQ(variable("{ range = [\"1 V\", \"2 V\"], exclude = [], more = 1 }"),
+            "5:21" + expected + "\n");
   EXPECT_EQ(
-      variable("[\"2 N\", \"2 N\"]"),
-      "5:17 design_space.finger.load: expected low < high; of one value write { choice = [\"2 "
-      "N\"] }, or state it in the design and leave it out here\n");
-  EXPECT_EQ(variable("[\"3 N\", \"2 N\"]"), "5:17 design_space.finger.load: expected low < high\n");
+      variable("[\"2 V\", \"2 V\"]"),
+      "5:21 design_space.drive.amplitude: expected low < high; of one value write { choice = [\"2 "
+      "V\"] }, or state it in the design and leave it out here\n");
+  EXPECT_EQ(variable("[\"3 V\", \"2 V\"]"),
+            "5:21 design_space.drive.amplitude: expected low < high\n");
   const std::string ends =
-      " design_space.finger.load.exclude: expected low < from < to < high; where nothing is left "
+      " design_space.drive.amplitude.exclude: expected low < from < to < high; where nothing is "
+      "left "
       "at an end, narrow `range` instead\n";
   const auto excluded = [&](const char* from, const char* to) {
-    const std::string said = variable("{ range = [\"1 N\", \"2 N\"], exclude = [[\"" +
+    const std::string said = variable("{ range = [\"1 V\", \"2 V\"], exclude = [[\"" +
                                       std::string(from) + "\", \"" + to + "\"]] }");
     return said.empty() ? said : said.substr(said.find(' '));
   };
-  EXPECT_EQ(excluded("1.1 N", "1.9 N"), "");
-  EXPECT_EQ(excluded("1 N", "1.9 N"), ends);
-  EXPECT_EQ(excluded("1.1 N", "2 N"), ends);
-  EXPECT_EQ(excluded("1.5 N", "1.5 N"), ends);
+  EXPECT_EQ(excluded("1.1 V", "1.9 V"), "");
+  EXPECT_EQ(excluded("1 V", "1.9 V"), ends);
+  EXPECT_EQ(excluded("1.1 V", "2 V"), ends);
+  EXPECT_EQ(excluded("1.5 V", "1.5 V"), ends);
+}
+
+// A search chooses what is built: who touches it, in which air, how that is calculated, is given.
+TEST(StudySections, OfVariablesAreNumbersOfWhatIsBuilt) {
+  const auto variable = [](const std::string& path, const std::string& ends) {
+    return problems("[objective]\nmaximise = \"mean(modulation)\"\n[design_space]\n\"" + path +
+                    "\" = " + ends + "\n");
+  };
+  for (const auto& [path, ends] : {std::pair("finger.skin.rms", "[\"50 nm\", \"150 nm\"]"),
+                                   {"environment.relative_humidity.0", "[\"20 %\", \"60 %\"]"},
+                                   {"model.droplet_step", "[\"50 nm\", \"800 nm\"]"},
+                                   {"accuracy.target", "[\"1 %\", \"5 %\"]"}}) {
+    const std::string said = variable(path, ends);
+    EXPECT_TRUE(
+        said.starts_with(std::string("5:1 design_space.") + path + ": is nothing that is built"))
+        << said;
+    EXPECT_NE(said.find("[[scenarios]]"), std::string::npos) << said;
+  }
+  EXPECT_EQ(variable("surface.contact_angle", "[\"20 deg\", \"60 deg\"]"), "");
 }
 
 // The kinds that numbers alone make, by their place in the list; parts of a stack from 1 on.
@@ -444,6 +465,7 @@ TEST(Contradictions, MoreDropletsThanCanBeSettledAreRefusedBeforeTheWork) {
   EXPECT_FALSE(refused(100e-6, 100));
   EXPECT_TRUE(refused(1e-3, 100));
   EXPECT_TRUE(refused(6e-6, 1e5));
+  EXPECT_TRUE(design_problems(d, DesignUse::Drawn).empty());  // no file has a droplet
   d.model.water = WaterModel::Threshold;
   EXPECT_FALSE(refused(6e-6, 1e5));
 }

@@ -306,13 +306,13 @@ TEST(Study, ProblemsAcrossFieldsAreLocated) {
             "folder");
   const std::string range = head +
                             "[objective]\nmaximise = \"mean(modulation)\"\n[design_space]\n" +
-                            "\"finger.load\" = { range = [\"1 N\", \"2 N\"], exclude = ";
+                            "\"drive.amplitude\" = { range = [\"1 V\", \"2 V\"], exclude = ";
   EXPECT_EQ(
-      problems_of(range + "[[\"1.5 N\", \"3 N\"]] }\n"),
-      ":5:54: design_space.finger.load.exclude: expected low < from < to < high; where nothing "
+      problems_of(range + "[[\"1.5 V\", \"3 V\"]] }\n"),
+      ":5:58: design_space.drive.amplitude.exclude: expected low < from < to < high; where nothing "
       "is left at an end, narrow `range` instead");
-  EXPECT_EQ(problems_of(range + "[\"1.5 N\"] }\n"),
-            ":5:54: design_space.finger.load.exclude: expected [from, to], got \"1.5 N\"");
+  EXPECT_EQ(problems_of(range + "[\"1.5 V\"] }\n"),
+            ":5:58: design_space.drive.amplitude.exclude: expected [from, to], got \"1.5 V\"");
 }
 
 TEST(Study, AnAmplitudeAboveItsSourceIsSaidOfAVoltageAlone) {
@@ -387,18 +387,19 @@ TEST(Settings, ChangeTheNumbersThatADesignHas) {
 TEST(Study, ExcludedRangesWithinOthersAreOne) {
   const Study study = parse_study(
       "schema_version = 1\n[objective]\nmaximise = \"mean(modulation)\"\n[design_space]\n"
-      "\"finger.load\" = { range = [\"1 N\", \"9 N\"], exclude = [[\"2 N\", \"6 N\"], [\"3 N\", "
-      "\"4 N\"], [\"6 N\", \"7 N\"], [\"7.5 N\", \"8 N\"]] }\n"
+      "\"drive.amplitude\" = { range = [\"1 V\", \"9 V\"], exclude = [[\"2 V\", \"6 V\"], [\"3 "
+      "V\", "
+      "\"4 V\"], [\"6 V\", \"7 V\"], [\"7.5 V\", \"8 V\"]] }\n"
       "\"surface.contact_angle\" = { choice = [\"60 deg\", \"30 deg\", \"90 deg\"] }\n",
       "s.toml");
   ASSERT_EQ(study.variables.size(), 2u);
-  const Variable& load = study.variables[0];
-  ASSERT_EQ(load.excluded.size(), 2u);
-  EXPECT_EQ(load.excluded[0].from, 2);
-  EXPECT_EQ(load.excluded[0].to, 7);
-  EXPECT_EQ(load.excluded[1].from, 7.5);
-  EXPECT_EQ(load.excluded[1].to, 8);
-  EXPECT_EQ(std::tuple(load.low, load.high, load.unit), std::tuple(1.0, 9.0, "N"));
+  const Variable& amplitude = study.variables[0];
+  ASSERT_EQ(amplitude.excluded.size(), 2u);
+  EXPECT_EQ(amplitude.excluded[0].from, 2);
+  EXPECT_EQ(amplitude.excluded[0].to, 7);
+  EXPECT_EQ(amplitude.excluded[1].from, 7.5);
+  EXPECT_EQ(amplitude.excluded[1].to, 8);
+  EXPECT_EQ(std::tuple(amplitude.low, amplitude.high, amplitude.unit), std::tuple(1.0, 9.0, "V"));
   const Variable& angle = study.variables[1];
   ASSERT_EQ(angle.choices.size(), 3u);
   const double degree = 3.14159265358979323846 / 180;

@@ -1,6 +1,7 @@
 // What is said of the measured maps behind a design.
 #include "design/scans.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -144,6 +145,45 @@ TEST(DesignScans, SayTheStepOfAPatchThatLeavesNoRoomForItsSeam) {
   const std::string corner = said(10e-6, -5e-6);
   EXPECT_NE(corner.find(step), std::string::npos) << corner;
   EXPECT_EQ(corner.find("blended along two borders"), std::string::npos) << corner;
+}
+
+// A map of 16 x 12 um that is said to repeat after its patch.
+std::string said_as_is(double patch, double (*height)(double x)) {
+  Heightmap h{{160, 120, 16e-6, 12e-6}, {}};
+  for (int i = 0; i < 160 * 120; ++i) h.z.push_back(height(0.1e-6 * (i % 160 + 0.5)));
+  Measured3d map;
+  map.file = temporary(fmt::format("as_is_{:.0f}.gsf", 1e6 * patch)), map.as_is = true,
+  map.patch = patch;
+  write_gsf(map.file, h, {});
+  Design design;
+  design.texture = Texture{map};
+  return text(scans_of(design).at(0));
+}
+
+// A wave of 16 um is 35.4 nm high 2 um from the border of the map and as deep 12 um further.
+TEST(DesignScans, SayThatAMapTakenAsItIsDoesNotRepeatAfterItsPatch) {
+  const std::string wave =
+      said_as_is(12e-6, [](double x) { return 50e-9 * std::sin(2 * kPi * x / 16e-6); });
+  const std::string step =
+      "the map does not repeat after that patch: at its border stands a step of ";
+  ASSERT_NE(wave.find(step), std::string::npos) << wave;
+  EXPECT_NEAR(std::stod(wave.substr(wave.find(step) + step.size())), 70.7, 0.5) << wave;
+  EXPECT_NE(wave.find("take texture.patch = a period of the map, or leave out as_is"),
+            std::string::npos)
+      << wave;
+}
+
+// Walls of grooves of 4 um stand at the border of a patch of two of them, where they belong.
+TEST(DesignScans, SayThePeriodThatAMapTakenAsItIsRepeatsAfter) {
+  const auto grooves = [](double x) { return std::fmod(x, 4e-6) < 2e-6 ? -100e-9 : 0.0; };
+  const std::string two = said_as_is(8e-6, grooves);
+  EXPECT_NE(two.find("of its 16 x 12 um a square of 8 um is one period (texture.patch), and the "
+                     "simulated patch of 8 x 16 um is whole periods"),
+            std::string::npos)
+      << two;
+  EXPECT_EQ(two.find("a step of"), std::string::npos) << two;
+  // 16 um are no whole number of its 12 um, which is refused: nothing is repeated.
+  EXPECT_EQ(said_as_is(16e-6, grooves).find("repeated"), std::string::npos);
 }
 
 // On a patch that is shorter than the waves of skin friction is that of another finger.

@@ -195,12 +195,51 @@ TEST(Edges, OfAMaskAndALayoutThatAreAtOtherPlacesAreSaid) {
   ASSERT_EQ(slanted.size(), 1u);
   const std::string begin = "mask and gds have other widths: holes are ";
   ASSERT_TRUE(slanted[0].starts_with(begin)) << slanted[0];
-  EXPECT_NEAR(std::stod(slanted[0].substr(begin.size())), 2.4, 0.02);
-  EXPECT_TRUE(slanted[0].ends_with(
-      "wide at half their depth, where mask is drawn, and 3 um at the land, where gds is"))
+  // The design's own width, and beside it what the pixels make of it.
+  const std::string own = begin + "2.4 um wide at half their depth, where mask is drawn (";
+  ASSERT_TRUE(slanted[0].starts_with(own)) << slanted[0];
+  EXPECT_NEAR(std::stod(slanted[0].substr(own.size())), 2.4, 0.02);
+  EXPECT_TRUE(slanted[0].ends_with(" um by its whole pixels), and 3 um at the land, where gds is"))
       << slanted[0];
   options.formats = {"gds"};
   EXPECT_EQ(warnings(45), std::vector<std::string>{});
+}
+
+// V-grooves of 2 um, 400 nm deep, on pixels of 227 nm: the mean over the lowest one is 354.5 nm
+// deep. Half of 400 nm is where they are 1 um wide.
+TEST(Edges, OfSharpGroovesLieAtHalfTheDepthOfTheDesign) {
+  const Texture grooves{VGrooves{.period = 5e-6, .width = 2e-6, .depth = 400e-9}};
+  const Drawn drawn(grooves, options_of("gds", 44, 10e-6));
+  const Heightmap& h = drawn.out.heightmap;
+  ASSERT_EQ(h.grid.nx, 44);
+  double area = 0;
+  const Layout lines = draw_contours(h, 1, edge_planes(grooves, h));
+  for (const LayoutPolygon& p : lines.cells.back().polygons) {
+    const Polygon& o = p.outline;
+    for (std::size_t i = 0, n = o.x.size(); i < n; ++i)
+      area += 0.5e-18 * (1.0 * o.x[i] * o.y[(i + 1) % n] - 1.0 * o.x[(i + 1) % n] * o.y[i]);
+  }
+  EXPECT_NEAR(area / (2 * h.grid.ly), 1e-6, 2e-9);
+  ASSERT_EQ(drawn.out.warnings.size(), 1u) << drawn.warning();
+  EXPECT_TRUE(
+      drawn.warning().starts_with("the map is 354.5 nm deep, the design 400 nm: a pixel of 227 nm "
+                                  "is the mean over its area and "
+                                  "cuts sharp ends off; --pixels "))
+      << drawn.warning();
+  EXPECT_TRUE(Drawn(grooves, options_of("gds", 1000, 10e-6)).out.warnings.empty());
+  const Workplace place;
+  EXPECT_EQ(Folder(place.path() / "f", grooves, Polarity::WhiteDeep).named(),
+            std::set<std::string>{});
+}
+
+// Walls of 22 deg: a floor of 15 nm below holes of 3 um, 1.5 um wide half-way down.
+TEST(Pixels, OfAMaskAreJudgedByTheWidthHalfWayDown) {
+  const double depth = 600e-9, run = 0.5 * (3e-6 - 15e-9);
+  const Texture slanted{HoleArray{
+      .period = 6e-6, .diameter = 3e-6, .depth = depth, .wall_angle = std::atan(depth / run)}};
+  EXPECT_EQ(Drawn(slanted, options_of("mask", 240, 12e-6)).refused, "");
+  EXPECT_NE(Drawn(slanted, options_of("mask", 12, 12e-6)).refused.find("means nothing"),
+            std::string::npos);
 }
 
 // A quarter of the smallest hole or wall a pixel, else a warning that says how many would do; half
@@ -265,6 +304,11 @@ TEST(Sides, AreWholePeriodsAndSaidWhereTheyAreOthers) {
   EXPECT_EQ(drawn(square, 12e-6, 7e-6).warning(),
             "12 x 7 um were asked for, 12 x 6 um are written: a whole number of periods");
   EXPECT_EQ(drawn(square, 12e-6, 6e-6).warning(), "");
+  // As many digits as tell the two apart.
+  EXPECT_NE(Drawn(Texture{holes_of(6e-6, 3e-6)}, options_of("gds", 96, 1))
+                .warning()
+                .find("1000000 um were asked for, 1000002 um are written"),
+            std::string::npos);
   // Of less than one and a half periods there is one, of hexagons with its two rows.
   expect_cells(drawn(square, 3e-6, 0), 1, 1, 3e-6, 3e-6);
   expect_cells(drawn(square, 4.4e-6, 0), 1, 1, 3e-6, 3e-6);

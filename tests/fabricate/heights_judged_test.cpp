@@ -15,6 +15,7 @@
 #include "fabricate/formats.h"
 #include "geometry/io/files.h"
 #include "geometry/io/layout.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests::heights_judged_test {
@@ -197,9 +198,10 @@ TEST(JudgedHeights, OnTheThresholdOfAMaskAreRightOnEitherSide) {
   const auto at = [](double pixel) {
     return map_of(kGrid, [=](std::size_t i) { return i == 0 ? pixel : i < 50 ? -70e-9 : 30e-9; });
   };
+  // Of a texture that states no depth: that of its pixels.
   for (const double sign : {1.0, -1.0}) {
     for (const auto& [away, faults] : {std::pair{0.5e-16, 0u}, {2e-16, 2u}}) {
-      Judge judge{at(-20e-9 + sign * away)};
+      Judge judge{at(-20e-9 + sign * away), Texture{RandomRough{}}};
       judge.options.polarity = Polarity::WhiteDeep;
       EXPECT_EQ(judge.of("mask", at(-20e-9 - sign * 1e-9)).size(), faults) << sign << away;
       EXPECT_EQ(judge.of("mask", at(-20e-9 + sign * 1e-9)), Faults{});
@@ -259,7 +261,7 @@ TEST(JudgedHeights, WhatAFileDoesNotSayOrSaysOtherwiseIsNamed) {
 
 // ImageJ knows sides and heights by other lines of the description than our own reader.
 TEST(JudgedHeights, WhatImageJTakesOfATiffIsTheDesigns) {
-  Judge judge{with_deep(20)};
+  Judge judge{with_deep(20), Texture{RandomRough{}}};  // as deep as its pixels
   const std::function<void(double)> quiet;
   const FileInfo info;
   for (const bool deep : {false, true}) {
@@ -293,6 +295,36 @@ TEST(JudgedHeights, WhatImageJTakesOfATiffIsTheDesigns) {
                 Faults{said + "no c1, and c1=" + (deep ? "-" : "") + "1.52590219e-06 is due"});
       EXPECT_EQ(changed("52590219e-06", "52590319e-06").size(), 1u);
     }
+  }
+}
+
+// 262 of type 3, one value: grey whose 0 is white is turned round by some readers, colours have no
+// heights.
+TEST(JudgedHeights, ATiffIsGreyFromBlackAtZero) {
+  Judge judge{with_deep(20), Texture{RandomRough{}}};
+  judge.options.polarity = Polarity::WhiteHigh;
+  const std::function<void(double)> quiet;
+  const FileInfo info;
+  for (const char* format : {"tiff", "mask", "tiff32"}) {
+    const ExportFormat& kind = find_export_format(format);
+    const std::string path = temporary(kind.file);
+    const ExportSource source{judge.design, judge.texture, judge.options, info, quiet};
+    Export out;
+    kind.write(source, path, out);
+    std::string bytes = read_bytes(path);
+    const std::size_t at = bytes.rfind(std::string("\x06\x01\x03\0\x01\0\0\0\x01\0", 10));
+    ASSERT_NE(at, std::string::npos) << format;
+    const auto stated = [&](char photometric) {
+      bytes[at + 8] = photometric;
+      write_bytes(path, bytes);
+      return kind.check(source, path);
+    };
+    EXPECT_EQ(stated(1), Faults{}) << format;
+    EXPECT_EQ(stated(2),
+              Faults{"its PhotometricInterpretation is 2, and 1 is due: grey, 0 is black"});
+    EXPECT_NE(refusal_of([&] { stated(0); }).find("its grey is inverted, 0 is white"),
+              std::string::npos)
+        << format;
   }
 }
 
@@ -354,7 +386,7 @@ TEST(JudgedHeights, OfFeaturesThatAreFinerThanPixelsNoMapIsSound) {
     EXPECT_EQ(
         faults[0],
         "edges are lost between its pixels: a pixel of 1000 nm is more than half the smallest "
-        "hole or wall, 1880 nm; --pixels 22 would do");
+        "hole or wall, 1890 nm; --pixels 22 would do");
   }
 }
 

@@ -137,6 +137,54 @@ TEST(Compensation, WallsThatTheEtchLeavesAreSaidToStay) {
   EXPECT_NEAR(m.width, m.wanted_width, 2e-9);  // at half the depth
 }
 
+// Of round holes slanted walls take another volume than upright ones of the same width half-way
+// down; the mask keeps the width.
+TEST(Compensation, TheWidthAtHalfTheDepthIsKeptByWallsOfAnyAngle) {
+  PillarArray pillars;
+  pillars.period = 6e-6, pillars.diameter = 3e-6, pillars.height = 400e-9;
+  Process process;
+  process.wall_angle = 12 * kPi / 180;  // 1.9 um from the land to the floor
+  for (const Texture& texture : {Texture{holes()}, Texture{pillars}}) {
+    const MadeArray m = made(texture, process);
+    EXPECT_NEAR(m.width, m.wanted_width, 2e-9) << texture_name(texture);
+    EXPECT_NEAR(m.depth, 400e-9, 1e-15) << texture_name(texture);
+  }
+  EXPECT_NEAR(made(Texture{holes()}, process).wanted_width,
+              3e-6 - 400e-9 / std::tan(85 * kPi / 180), 1e-15);
+}
+
+// Walls of 45 deg meet at half the width of what is deep at the land: of grooves 0.5 um wide
+// half-way down 800 nm at 650 nm, between pillars of 1.2 um at their top at the distance of their
+// edges from the middle of three.
+TEST(Process, WhereWallsMeetTheDepthIsThatOfTheirMeeting) {
+  Grating grooves;
+  grooves.period = 3e-6, grooves.width = 0.5e-6, grooves.depth = 800e-9;
+  grooves.wall_angle = kPi / 2;
+  PillarArray pillars;
+  pillars.lattice = Lattice::Hexagonal;
+  pillars.period = 2e-6, pillars.diameter = 1.8e-6, pillars.height = 600e-9;
+  pillars.wall_angle = kPi / 2;
+  Process process;
+  process.wall_angle = kPi / 4;
+  const MadeArray m = made(Texture{grooves}, process);
+  EXPECT_NEAR(m.depth, 650e-9, 1e-9);
+  EXPECT_NEAR(m.width, 0.5e-6, 2e-9);
+  ASSERT_EQ(m.left().size(), 2u);
+  EXPECT_NE(m.left()[0].find("wanted 800 nm (-19 %): its walls meet above it; steeper walls"),
+            std::string::npos)
+      << m.left()[0];
+  EXPECT_NEAR(made(Texture{pillars}, process).depth, 2e-6 / std::sqrt(3.0) - 0.6e-6, 3e-9);
+}
+
+TEST(Compensation, RimsThatTheProcessLeavesAreSaidToStay) {
+  Process process;
+  process.edge_radius = 100e-9;
+  const MadeArray m = made(Texture{holes()}, process);
+  EXPECT_EQ(m.left(),
+            std::vector<std::string>{"rims of 100 nm, wanted 0 nm: no mask changes them"});
+  EXPECT_NEAR(m.width, m.wanted_width, 2e-9);  // half-way down it is the same
+}
+
 // Upright walls round the land over the radius on either side, as the radius of a design does.
 TEST(Process, RefusesRimsThatLeaveNothingOfTheLand) {
   HoleArray upright = holes();

@@ -197,6 +197,15 @@ TEST(JudgedLayouts, OfHexagonsEveryRowHasItsPlace) {
             Faults{"16 polygons, the design's 12"});
 }
 
+// GDSII has each of its rows in seven parts, of 32767 columns and of 3398.
+TEST(JudgedLayouts, ArraysThatGdsiiHoldsInPartsAreTheDesigns) {
+  const LayoutJudge wide{Texture{HoleArray{.period = 1e-6, .diameter = 0.5e-6}},
+                         {64, 64, 200e-3, 100e-6}};
+  EXPECT_EQ(wide.of([](Layout&) {}), Faults{});
+  EXPECT_EQ(wide.of([](Layout& layout) { placed(layout).columns -= 1; }),
+            Faults{"19999900 polygons, the design's 20000000"});
+}
+
 // Twice the rows of the design and sixteen, by way of three cells each, are looked at: of two rows
 // 60, the top among them.
 TEST(JudgedLayouts, FarMoreRowsThanTheDesignHasAreRefused) {

@@ -113,5 +113,25 @@ TEST(Verify, NamesEachCorruptedFileAndNoOther) {
   for (const Folder& folder : folders) EXPECT_EQ(folder.named(), std::set<std::string>{});
 }
 
+// Holes of the files are wider than those of the design, by what the process takes.
+TEST(Verify, HoldsAFileThatUndoesAProcessAgainstTheDesignWithItUndone) {
+  const Workplace place;
+  Study study;
+  study.design.environment.relative_humidity = {0.35};
+  study.design.texture = Texture{HoleArray{.period = 6e-6, .diameter = 3e-6}};
+  const auto against = [&](double shrink) {
+    ExportOptions options;
+    options.formats = {"gsf"};
+    options.pixels = 128;
+    options.bias.shrink = shrink;
+    const Export made = export_design(study.design, options, (place.path() / "out").string());
+    const Verification found = verify_export(record_of(study, options, made), 0.2);
+    EXPECT_TRUE(found.faults.empty()) << found.faults.front();
+    return found.against;
+  };
+  EXPECT_EQ(against(0), "the design");
+  EXPECT_EQ(against(100e-9), "the design with the process undone");
+}
+
 }  // namespace
 }  // namespace papilla::tests::verify_slow_test

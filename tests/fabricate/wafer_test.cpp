@@ -510,6 +510,44 @@ TEST(Wafer, IsMadeAgainFromItsRecordToTheLastByte) {
     EXPECT_EQ(read_bytes(folder + "/" + file), read_bytes(wafer.path("again/") + file)) << file;
 }
 
+// So many droplets on a patch are not settled in reasonable time, which no mask needs: the wafer is
+// drawn, and verified, without what is expected of it.
+TEST(Wafer, IsDrawnOfADesignThatIsTooWetToSimulate) {
+  const Workplace place;
+  const std::string wet =
+      array_design("hole_array", "period = \"6 um\"\ndiameter = \"3 um\"\ndepth = \"100 nm\"\n") +
+      "[finger.water]\ndrops_per_um3 = 100000\n";
+  place.write("d.toml", wet);
+  place.write("list.toml", "schema_version = 1\n[[design]]\nname = \"W\"\nfile = \"d.toml\"\n");
+  const std::string list = (place.path() / "list.toml").string(),
+                    folder = (place.path() / "wafer").string();
+  EXPECT_NE(refusal_of([&] { plan_wafer(list); }).find("settled in reasonable time"),
+            std::string::npos);
+  const WaferPlan plan = plan_wafer(list, {}, DesignUse::Drawn);
+  EXPECT_NE(refusal_of([&] { check_conditions(plan); }).find("settled in reasonable time"),
+            std::string::npos);
+  EXPECT_NO_THROW(check_conditions(plan, DesignUse::Drawn));
+  write_wafer(plan, draw_wafer(plan), {}, folder);
+  for (const FileVerdict& file : verify_wafer(folder).files)
+    EXPECT_EQ(file.state, FileState::Sound) << file.path;
+}
+
+// 33333 columns and rows, of which GDSII holds 32767 in a record.
+TEST(WaferVerify, FindsPadsOfMoreColumnsThanARecordHoldsSound) {
+  const Workplace place;
+  place.write("d.toml",
+              array_design("hole_array",
+                           "period = \"360 nm\"\ndiameter = \"180 nm\"\ndepth = \"100 nm\"\n"));
+  place.write("list.toml",
+              "schema_version = 1\n[wafer]\npad_width = \"12 mm\"\npad_height = \"12 mm\"\n"
+              "repeats = 1\n[[design]]\nname = \"S\"\nfile = \"d.toml\"\n");
+  const WaferPlan plan = plan_wafer((place.path() / "list.toml").string());
+  const std::string folder = (place.path() / "out").string();
+  write_wafer(plan, draw_wafer(plan), {}, folder);
+  for (const FileVerdict& file : verify_wafer(folder).files)
+    EXPECT_EQ(file.faults, std::vector<std::string>{}) << file.path;
+}
+
 TEST(WaferVerify, NamesWhatWasChangedInEachFile) {
   const Wafer wafer("");
   const std::string folder = wafer.write();

@@ -276,6 +276,29 @@ TEST(WallProfile, OfAShallowHoleIsTheArcDownToItsFloor) {
   }
 }
 
+TEST(WallProfile, IsAsDeepAsAskedWhereItIsSaidToBe) {
+  const double depth = 300e-9;
+  for (const double angle : {kPi / 6, kPi / 3, 1.5}) {
+    for (const double rim : {0.0, 80e-9, 5e-6}) {
+      const WallProfile wall(depth, angle, rim);
+      for (const double share : {0.05, 0.5, 0.999})
+        EXPECT_NEAR(wall.drop(wall.inside(share * depth)), share * depth, 1e-15) << angle << rim;
+    }
+  }
+}
+
+// Straight walls take half of their run a side, and rims that end above the middle nothing.
+TEST(Widths, AtHalfTheDepthAreThoseOfTheStraightWall) {
+  const double run = 3e-7 / std::tan(kPi / 3);
+  for (const double rim : {0.0, 50e-9}) {
+    const WallSection wall{3e-7, kPi / 3, rim};
+    const FeatureArray holes{FeatureArray::Shape::Disc, true, Lattice::Square, 6e-6, 4e-6, "holes"},
+        pillars{FeatureArray::Shape::Disc, false, Lattice::Square, 6e-6, 2e-6, "pillars"};
+    EXPECT_NEAR(width_at_half_depth(holes, wall), 4e-6 - run, 1e-15);
+    EXPECT_NEAR(width_at_half_depth(pillars, wall), 2e-6 + run, 1e-15);
+  }
+}
+
 TEST(Margins, AreThoseOfTheFloorAndTheLand) {
   const double run = 3e-7 / std::tan(kPi / 3);
   const HoleArray holes{.period = 6e-6, .diameter = 4e-6, .depth = 3e-7, .wall_angle = kPi / 3};

@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/constants.h"
@@ -321,6 +322,41 @@ TEST(MiddleOfAMap, OneThatRepeatsIsTiledOverOtherSides) {
           .find("6 x 6 um is smaller than the 6 x 8 um of the stack that it is a part of, and "
                 "they are no whole number of it"),
       std::string::npos);
+}
+
+// The patch of a map under as_is is said to be its period: where the map is no whole number of it,
+// what lies beyond its border is taken a period before, not from its other border.
+TEST(MiddleOfAMap, OneOfNoWholePeriodsIsTiledByItsPeriod) {
+  const auto lattice = [](double x, double y) {
+    return 40e-9 * std::sin(2 * kPi * x / 8e-6) + 30e-9 * std::cos(2 * kPi * y / 8e-6 + 1);
+  };
+  const std::string file = temporary("period.gsf");
+  write_gsf(file, map_of({160, 120, 16e-6, 12e-6}, lattice), {});
+  // As fine as the map, and finer: there bilinear values are off by the waves' curvature.
+  for (const auto& [pixels, off] : {std::pair{160, 1e-14}, {320, 1e-10}}) {
+    const Grid stack{pixels, pixels, 16e-6, 16e-6};
+    const Heightmap h = patch_of_map({file, 0, false, true}, 8e-6, {}, stack);
+    for (int iy = 0; iy < pixels; ++iy) {
+      for (int ix = 0; ix < pixels; ++ix)
+        ASSERT_NEAR(h(ix, iy), lattice(stack.x(ix), stack.y(iy)), off) << ix << " " << iy;
+    }
+  }
+}
+
+// Sides that the map holds are cut out of it, with whatever differs from period to period: grains
+// beside a lattice are not those of the first cell again and again.
+TEST(MiddleOfAMap, OneThatHoldsAllOfItsSidesIsNotRepeated) {
+  const auto beside = [](double x, double y) {
+    return 40e-9 * std::sin(2 * kPi * x / 8e-6) + 30e-9 * std::cos(2 * kPi * (x + y) / 20e-6);
+  };
+  const std::string file = temporary("held.gsf");
+  write_gsf(file, map_of({200, 200, 20e-6, 20e-6}, beside), {});
+  const Grid stack{160, 80, 16e-6, 8e-6};
+  const Heightmap h = patch_of_map({file, 0, false, true}, 8e-6, {}, stack);
+  for (int iy = 0; iy < stack.ny; ++iy) {
+    for (int ix = 0; ix < stack.nx; ++ix)
+      ASSERT_NEAR(h(ix, iy), beside(stack.x(ix), stack.y(iy)), 1e-14) << ix << " " << iy;
+  }
 }
 
 // Without a word the patch is 12 um: a map that repeats is taken twice each way, whole.

@@ -194,9 +194,10 @@ TEST(DrawnLayouts, ACircleHasTheAreaOfItsDiameter) {
 // Steps of 10 nm along x, five of them: two levels lie at a quarter and three quarters of 40 nm.
 TEST(DrawnContours, OfLevelsLieInTheMiddleOfTheirShares) {
   const Heightmap h{{5, 1, 500e-9, 100e-9}, {0, -10e-9, -20e-9, -30e-9, -40e-9}};
-  const auto left = [&](int levels) {  // of each layer [nm]
+  // Of each layer [nm].
+  const auto left = [&](int levels, const std::optional<Planes>& between = std::nullopt) {
     std::vector<std::int32_t> out(static_cast<std::size_t>(levels) + 1, 1000);
-    const Layout layout = draw_contours(h, levels);
+    const Layout layout = draw_contours(h, levels, between);
     EXPECT_EQ(layout.cells.size(), 1u);
     EXPECT_EQ(layout.cells[0].name, "TEXTURE");
     for (const LayoutPolygon& p : layout.cells[0].polygons) {
@@ -212,6 +213,8 @@ TEST(DrawnContours, OfLevelsLieInTheMiddleOfTheirShares) {
   EXPECT_EQ(left(2), (std::vector<std::int32_t>{1000, 150, 350}));
   EXPECT_EQ(left(4), (std::vector<std::int32_t>{1000, 100, 200, 300, 400}));
   EXPECT_EQ(left(5), (std::vector<std::int32_t>{1000, 90, 170, 250, 330, 410}));
+  // Of a design that is deeper than its pixels, and higher: at 35 nm of 90.
+  EXPECT_EQ(left(1, Planes{-80e-9, 10e-9}), (std::vector<std::int32_t>{1000, 400}));
 }
 
 }  // namespace

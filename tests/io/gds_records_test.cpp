@@ -95,31 +95,49 @@ TEST(GdsRecords, StandInTheBytesOfTheirDefinition) {
 }
 
 // One record holds 32767 columns and rows: what is more stands in further ones, beside the first.
-TEST(GdsRecords, OfMoreThan32767CellsASideAreWrittenInParts) {
-  const auto parts = [](long columns, long rows) {
+// They are one array again when they are read.
+TEST(GdsRecords, OfMoreThan32767CellsASideAreWrittenInPartsAndReadAsOneArray) {
+  const std::string path = temporary("many.gds");
+  const auto part = [](long x, long y, long columns, long rows) {
+    const long left = 11 + x, low = -13 + y;
+    return record(0x0B00) + record(0x1206, "ODD\0"s) + record(0x1302, shorts({columns, rows})) +
+           record(0x1003, longs({left, low, left + 2 * columns, low, left, low + 3 * rows})) +
+           record(0x1100);
+  };
+  const auto expect_parts = [&](long columns, long rows, const std::string& parts) {
     Layout layout = example();
     LayoutReference& r = layout.cells.back().references[0];
     r.columns = columns, r.rows = rows;
     r.step_x = 2, r.step_y = 3;
-    const std::string path = temporary("many.gds");
     write_gds(path, layout);
-    std::vector<std::tuple<long, long, long, long>> out;  // from the first, how many
-    const Layout back = read_gds(path);
-    for (const LayoutReference& part : back.cells.back().references) {
-      if (part.cell == r.cell)
-        out.emplace_back(part.x - r.x, part.y - r.y, part.columns, part.rows);
-    }
-    return out;
+    EXPECT_TRUE(read_bytes(path).ends_with(cell("TOP\0"s, parts) + kEnd)) << columns;
+    const std::vector<LayoutReference> back = read_gds(path).cells.back().references;
+    ASSERT_EQ(back.size(), 1u) << columns;
+    EXPECT_EQ(std::tuple(back[0].x, back[0].y, back[0].columns, back[0].rows),
+              std::tuple(r.x, r.y, columns, rows));
+    EXPECT_EQ(std::tuple(back[0].step_x, back[0].step_y), std::tuple(2, 3));
   };
-  using Parts = std::vector<std::tuple<long, long, long, long>>;
-  EXPECT_EQ(parts(32767, 32767), (Parts{{0, 0, 32767, 32767}}));
-  EXPECT_EQ(parts(32768, 3), (Parts{{0, 0, 32767, 3}, {65534, 0, 1, 3}}));
-  EXPECT_EQ(parts(40000, 70000), (Parts{{0, 0, 32767, 32767},
-                                        {65534, 0, 7233, 32767},
-                                        {0, 98301, 32767, 32767},
-                                        {65534, 98301, 7233, 32767},
-                                        {0, 196602, 32767, 4466},
-                                        {65534, 196602, 7233, 4466}}));
+  expect_parts(32767, 32767, part(0, 0, 32767, 32767));
+  expect_parts(32768, 3, part(0, 0, 32767, 3) + part(65534, 0, 1, 3));
+  expect_parts(40000, 70000,
+               part(0, 0, 32767, 32767) + part(65534, 0, 7233, 32767) +
+                   part(0, 98301, 32767, 32767) + part(65534, 98301, 7233, 32767) +
+                   part(0, 196602, 32767, 4466) + part(65534, 196602, 7233, 4466));
+  // Arrays beside each other of which the first is not full, or the second of another pitch, are
+  // two.
+  const LayoutReference full{
+      .cell = "CELL", .columns = 32767, .rows = 2, .step_x = 2, .step_y = 3, .array = true};
+  LayoutReference beside = full;
+  beside.x = 65534, beside.step_x = 4;
+  Layout two = example();
+  two.cells.back().references = {full, beside};
+  write_gds(path, two);
+  EXPECT_EQ(read_gds(path).cells.back().references.size(), 2u);
+  LayoutReference fewer = full;
+  fewer.columns = 5, beside = fewer, beside.x = 10;
+  two.cells.back().references = {fewer, beside};
+  write_gds(path, two);
+  EXPECT_EQ(read_gds(path).cells.back().references.size(), 2u);
 }
 
 // What the reader says, without the name of the file; "": it reads them.

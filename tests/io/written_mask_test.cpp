@@ -151,6 +151,10 @@ TEST(WrittenMask, DeeperIsWhiteFromHalfTheDepthOn) {
   for (const auto& [x, white] :
        {std::pair{0.5e-6, 0.0}, {1.5e-6, 0.0}, {2.5e-6, 1.0}, {3.5e-6, 1.0}})
     EXPECT_NEAR(grey(path, grid, x, 0.5e-6), white, 1e-6) << x;
+  // Of a design that is deeper than its pixels.
+  write_mask_tiff(path, h, Polarity::WhiteDeep, {}, Planes{-210e-9, 0});
+  for (const auto& [x, white] : {std::pair{1.5e-6, 0.0}, {2.5e-6, 0.0}, {3.5e-6, 1.0}})
+    EXPECT_NEAR(grey(path, grid, x, 0.5e-6), white, 1e-6) << x;
 }
 
 }  // namespace
