@@ -284,6 +284,30 @@ double parse_si(std::string_view text, std::string_view unit) {
   return quantity->si;
 }
 
+BareNumber bare_number(double value, const std::string& unit) {
+  // Without the last bits of the factor: 0.07 is 7 %.
+  const auto scaled = [value](double by) {
+    return format_number(std::strtod(fmt::format("{:.12g}", value * by).c_str(), nullptr));
+  };
+  // 0.05 may be a share of one or of a hundred: both are shown, and what each means.
+  if (unit == "%" && value > 0 && value <= 1)
+    return {true, fmt::format(
+                      "needs a unit: \"{} %\" if {} is a share of 1, \"{} %\" if it is in percent",
+                      scaled(100), format_number(value), format_number(value))};
+  // 5000 in a key of kHz may be in Hz, 3e-6 in one of um in m: both are shown, too.
+  const std::string whole = unit.substr(1);
+  const double factor = find_unit(unit)->to_si;
+  const auto base = find_unit(whole);
+  const bool other = !whole.empty() && base && base->to_si == 1 &&
+                     base->same_dimension(*find_unit(unit)) &&
+                     (factor > 1 ? value >= factor : value > 0 && value <= 1e3 * factor);
+  if (!other)
+    return {false, fmt::format("needs a unit, e.g. \"{} {}\"", format_number(value), unit)};
+  return {true, fmt::format("needs a unit: \"{} {}\" if {} is in {}, \"{} {}\" if it is in {}",
+                            scaled(1 / factor), unit, format_number(value), whole,
+                            format_number(value), unit, unit)};
+}
+
 std::string format_number(double value) {
   return std::isfinite(value) ? decimal_text(shortest_decimal(value)) : fmt::format("{}", value);
 }

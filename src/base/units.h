@@ -45,6 +45,15 @@ std::optional<Quantity> parse_quantity(std::string_view text);
 // to write it right. For command-line options and code.
 double parse_si(std::string_view text, std::string_view unit);
 
+// A number without a unit, of a key that has one (never ""): whether it may be meant otherwise than
+// in that unit (0.15 of "%" as a share of 1, 6e-7 of "nm" in m), and how to write it ("needs a unit
+// ...").
+struct BareNumber {
+  bool ambiguous = false;
+  std::string advice;
+};
+BareNumber bare_number(double value, const std::string& unit);
+
 // 3e-6 with "um" -> "3 um"; shortest text that reads back to the same double where possible.
 std::string format_quantity(double si, std::string_view unit);
 // Shortest decimal text that reads back exactly.

@@ -471,7 +471,7 @@ struct Document::State final : public FieldVisitor {
         return false;
       }
       if (!plain && quantity->unit.empty()) {
-        problem(node.place, path, needs_unit(spec, quantity->value));
+        problem(node.place, path, bare_number(quantity->value, spec.unit).advice);
         return false;
       }
       if (!find_unit(quantity->unit)->same_dimension(unit)) {
@@ -488,7 +488,7 @@ struct Document::State final : public FieldVisitor {
         return false;
       }
       if (!plain && !node.si) {
-        problem(node.place, path, needs_unit(spec, node.number));
+        problem(node.place, path, bare_number(node.number, spec.unit).advice);
         return false;
       }
       result = node.number;
@@ -514,29 +514,6 @@ struct Document::State final : public FieldVisitor {
   static std::string example(const NumberSpec& spec) {
     if (spec.low > 0) return format_number(spec.low);
     return format_number(std::min(1.0, spec.high));
-  }
-
-  static std::string needs_unit(const NumberSpec& spec, double value) {
-    const std::string unit = spec.unit;
-    // 0.05 may be a share of one or of a hundred: both are shown, and what each means.
-    if (unit == "%" && value > 0 && value <= 1)
-      return fmt::format(
-          "needs a unit: \"{} %\" if {} is a share of 1, \"{} %\" if it is in percent",
-          format_number(100 * value), format_number(value), format_number(value));
-    // 5000 in a key of kHz may be in Hz, 3e-6 in one of um in m: both are shown, too.
-    const std::string whole = unit.substr(1);
-    const double factor = find_unit(unit)->to_si;
-    const auto base = find_unit(whole);
-    const bool other = !whole.empty() && base && base->to_si == 1 &&
-                       base->same_dimension(*find_unit(unit)) &&
-                       (factor > 1 ? value >= factor : value > 0 && value <= 1e3 * factor);
-    if (other) {
-      return fmt::format(
-          "needs a unit: \"{} {}\" if {} is in {}, \"{} {}\" if it is in {}",
-          format_number(std::strtod(fmt::format("{:.12g}", value / factor).c_str(), nullptr)), unit,
-          format_number(value), whole, format_number(value), unit, unit);
-    }
-    return fmt::format("needs a unit, e.g. \"{} {}\"", format_number(value), unit);
   }
 
   void number(const NumberSpec& spec, double& si) override {

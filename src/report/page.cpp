@@ -36,14 +36,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What a browser without scripts shows in place of the sections that they fill.
-std::string without_scripts(const Folder& folder) {
-  std::string text;
-  for (const char* name : {"summary.md", "fit.md"}) {
-    if (folder.has(name)) text = markdown_html(folder.read(name));
-  }
+// What a finished run says in words, as HTML.
+std::string told_by(const Folder& folder) {
   if (folder.has("ranking.txt"))
-    text = "<pre>" + markup_text(folder.read("ranking.txt")) + "</pre>\n";
+    return "<pre>" + markup_text(folder.read("ranking.txt")) + "</pre>\n";
+  for (const char* name : {"fit.md", "summary.md"}) {
+    if (folder.has(name)) return markdown_html(folder.read(name));
+  }
+  return {};
+}
+
+// What a browser without scripts shows in place of the sections that they fill.
+std::string without_scripts(const std::string& text) {
   return "<noscript><style>main > section, nav, .choice, #lead, #facts { display: none; "
          "}</style>\n" +
          text + "</noscript>\n";
@@ -99,8 +103,10 @@ struct PageKind {
   std::string_view body, script, solid;
 };
 
-// `data` gets the version and the list of the folder's files, as every page has them.
-std::string page_text(const Folder& folder, std::string title, const PageKind& kind, Json data) {
+// `data` gets the version and the list of the folder's files, as every page has them. told: what
+// the page says without its scripts, as HTML.
+std::string page_text(const Folder& folder, std::string title, const PageKind& kind, Json data,
+                      const std::string& told) {
   if (title.empty())
     title =
         visible(std::filesystem::absolute(folder.path()).lexically_normal().filename().string());
@@ -122,7 +128,7 @@ std::string page_text(const Folder& folder, std::string title, const PageKind& k
   put("{{chart}}", kChartScript);
   put("{{body}}", kind.body);
   put("{{notice}}", notice(folder) + picked_text(data));
-  put("{{plain}}", without_scripts(folder));
+  put("{{plain}}", without_scripts(told));
   put("{{heading}}", markup_text(title));
   put("{{style}}", kPageStyle);
   put("{{title}}", markup_text(title));
@@ -170,7 +176,8 @@ std::string optimize_page(const Folder& root, std::string design) {
   data["plan"] = root.read("plan.txt");
   data["summary"] = root.read("summary.md");
   data["run"] = std::move(run);
-  return page_text(root, title, {kOptimizeHtml, kOptimizeScript, kThreeScript}, std::move(data));
+  return page_text(root, title, {kOptimizeHtml, kOptimizeScript, kThreeScript}, std::move(data),
+                   told_by(root));
 }
 
 // Which part of a map that is larger a picture is of; "" where it shows all there is.
@@ -218,7 +225,8 @@ std::string rank_page(const Folder& root) {
   }
   const std::string title = fmt::format("{} designs by {}", names.size(), join_names(by, ", "));
   return page_text(root, title, {kRankHtml, kRankScript, ""},
-                   {{"ranking", std::move(ranking)}, {"candidates", std::move(candidates)}});
+                   {{"ranking", std::move(ranking)}, {"candidates", std::move(candidates)}},
+                   told_by(root));
 }
 
 std::string calibrate_page(const Folder& root) {
@@ -228,7 +236,66 @@ std::string calibrate_page(const Folder& root) {
                      ": fit.json is of another version; run `papilla calibrate` again");
   }
   std::string title = fit.value("title", "");
-  return page_text(root, title, {kCalibrateHtml, kCalibrateScript, ""}, {{"fit", std::move(fit)}});
+  return page_text(root, title, {kCalibrateHtml, kCalibrateScript, ""}, {{"fit", std::move(fit)}},
+                   told_by(root));
+}
+
+// How far a search is that has not finished; below that its errors, each in its line.
+std::string progress_text(const Json& search) {
+  const std::string state = search.value("state", ""), trouble = search.value("trouble", "");
+  return fmt::format(
+      "Not finished: {} of {} designs were judged. The search {} {}. No design here is confirmed, "
+      "none was compared with the surface without texture, and none has its tolerances yet: the "
+      "report of the finished search has that.{}",
+      search.value("done", 0), search.value("total", 0), state == "failed" ? "has" : "is", state,
+      trouble.empty() ? "" : "\n" + trouble);
+}
+
+// What its designs are worth so far.
+std::string level_text(const Json& search) {
+  const Json front = search.value("front", Json::array());
+  if (front.empty())
+    return search.value("done", 0) > 0 ? "No design that was judged has an answer yet."
+                                       : "No design was judged yet.";
+  const bool feasible = search.at("points").at(front[0].get<std::size_t>()).at("feasible");
+  return std::string(feasible ? "" : "No design keeps every limit yet: the nearest is shown. ") +
+         "Designs at the cheap level of the search: compare them with each other only; the best "
+         "look better than they are.";
+}
+
+// Its front so far, best first, as a table of Markdown; empty: none.
+std::string front_table(const Json& search) {
+  auto front = search.value("front", std::vector<std::size_t>{});  // as they were judged
+  if (front.empty()) return {};
+  const Json &objectives = search.at("objectives"), &points = search.at("points");
+  const double sign = objectives.at(0).at("maximise").get<bool>() ? 1 : -1;
+  const auto better = [&](std::size_t a, std::size_t b) {
+    const auto first = [&](std::size_t i) {
+      return points.at(i).at("objectives").at(0).get<double>();
+    };
+    return sign * (first(a) - first(b)) > 0;
+  };
+  std::stable_sort(front.begin(), front.end(), better);
+  std::string out = "|";
+  const auto cell = [&out](const std::string& text) { out += " " + text + " |"; };
+  for (const Json& o : objectives) {
+    const std::string unit = o.at("unit");
+    cell(o.at("name").get<std::string>() + (unit.empty() ? "" : " [" + unit + "]"));
+  }
+  for (const Json& v : search.at("variables")) cell(v.at("path"));
+  for (const std::size_t at : front) {
+    out += "\n|";
+    const Json& point = points.at(at);
+    const Json& reached = point.at("objectives");  // SI; none of a design without an answer
+    for (std::size_t k = 0; k < objectives.size(); ++k) {
+      const bool known = k < reached.size() && reached[k].is_number();
+      cell(known
+               ? significant(reached[k].get<double>() * objectives[k].at("scale").get<double>(), 3)
+               : "");
+    }
+    for (const Json& value : point.at("values")) cell(value);
+  }
+  return out + "\n";
 }
 
 }  // namespace
@@ -243,10 +310,15 @@ std::string report_page(const std::string& folder, const std::string& pick) {
 
 std::string unfinished_page(const std::string& folder, const Json& search) {
   const Folder root(folder);
-  const std::string study = root.read("study.toml");
+  const std::string study = root.read("study.toml"), progress = progress_text(search),
+                    level = level_text(search);
+  const std::string told = markdown_html(progress + "\n## So far\n" + level + "\n" +
+                                         front_table(search) + "## What is looked for\n") +
+                           "<pre>" + markup_text(study) + "</pre>\n";
   return page_text(root, read_study(root.file("study.toml")).design.title,
                    {kUnfinishedHtml, kUnfinishedScript, ""},
-                   {{"search", search}, {"study", study}});
+                   {{"search", search}, {"study", study}, {"progress", progress}, {"level", level}},
+                   told);
 }
 
 }  // namespace papilla::report

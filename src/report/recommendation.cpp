@@ -197,13 +197,11 @@ std::string worth_building(const ResultFiles& f) {
   }
   const auto flat = best_flat(f.problem, r);
   const std::string of_flat = "the best flat surface of the run";
-  if (flat &&
-      surface_text(f, of_flat, r.finalists[*flat].unit) != surface_text(f, of_flat, best.unit)) {
-    const FinalDesign& other = r.finalists[*flat];
-    const std::string both = built_changes(f, "the best", of_flat, best.confirmed, other.confirmed);
-    const std::string surface = surface_text(f, of_flat, other.unit);
+  if (flat && surface_text(f, of_flat, flat->unit) != surface_text(f, of_flat, best.unit)) {
+    const std::string both = built_changes(f, "the best", of_flat, best.confirmed, flat->confirmed);
+    const std::string surface = surface_text(f, of_flat, flat->unit);
     clauses.push_back(fmt::format(
-        "Against the best flat surface of this run, {}{}, it {}.", design_name(other.folder),
+        "Against the best flat surface of this run, {}{}, it {}.", flat_name(*flat),
         surface.empty() ? "" : " (" + surface + ")",
         both.empty() ? "is no better and no worse than the error of the difference" : both));
   }
@@ -218,7 +216,7 @@ std::string leave_flat(const ResultFiles& f) {
   std::string none = no_texture(f, "no texture or finish of this search gains", !others.empty());
   if (f.result.flat_before && !textures_unknown(f).empty())
     none += "; the finish of the best adds no more than the error of the difference";
-  return fmt::format("Leave it flat: {}.{}{}", none, others, rounding_text(f));
+  return fmt::format("Leave it flat: {}.{}", none, others);
 }
 
 std::string change_finish(const ResultFiles& f) {
@@ -230,8 +228,9 @@ std::string change_finish(const ResultFiles& f) {
         "Leave it flat: {}. What the finish does ({}) is not known: the study's own surface {}."
         "{}{}{}",
         none, finish_text(f),
-        without_number(f, f.problem.space().own_surface(), r.flat_before_unanswered), others,
-        rounding_text(f), unstable_recommended(f));
+        without_number(f, f.problem.space().with_own_finish(best_of(f).unit),
+                       r.flat_before_unanswered),
+        others, rounding_text(f), unstable_recommended(f));
   }
   std::vector<std::string> does;
   if (std::string both = built_changes(f, "the finish of the best", "that of the study",
@@ -271,6 +270,10 @@ std::string design_name(const std::string& folder) {
   constexpr std::string_view kFront = "front/";
   if (!folder.starts_with(kFront)) return folder.empty() ? "a dominated design" : folder;
   return "design " + folder.substr(kFront.size());
+}
+
+std::string flat_name(const FinalDesign& flat) {
+  return flat.flat ? "that of the study file" : design_name(flat.folder);
 }
 
 FinalDesign recommended_of(const ResultFiles& f) { return recommended_design(f.problem, f.result); }
@@ -331,10 +334,10 @@ Design built_design(const ResultFiles& f) {
 
 std::optional<std::size_t> recommended_place(const ResultFiles& f) {
   const FinalDesign design = recommended_of(f);
-  if (design.unit.empty()) return std::nullopt;  // outside the space
+  if (search::DesignSpace::is_beside(design.unit)) return std::nullopt;
   // The surface of a textured design without its texture may be one of the finalists too, where the
   // space has surfaces without one: else it has no place among them, that of its texture least.
-  Point unit = design.unit;
+  Point unit = f.problem.space().snapped(design.unit);
   if (design.flat && facts(f.problem.space().design(unit).texture).relief.present) {
     const std::optional<Point> flat = f.problem.space().flattened(unit);
     if (!flat) return std::nullopt;

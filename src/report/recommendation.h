@@ -36,6 +36,8 @@ std::string judged_on_grid(const BuiltDesign& build);
 std::string plain_name(const std::string& path);
 // "design 06" of front/06.
 std::string design_name(const std::string& folder);
+// Of best_flat: "design 06", or the surface of the study file.
+std::string flat_name(const FinalDesign& flat);
 // "grooves 1.2 um wide at the top, 349 nm deep, 5.41 um from one to the next, walls 88 deg steep"
 std::string shape_text(const Design& design);
 // "contact angle 90 deg (60 deg in the study file)": what of that which is built is not the

@@ -121,7 +121,7 @@ std::vector<Part> study_reference() {
           "a line for reports, of a design too; behind it stands what `--set` of `evaluate`, "
           "`explain`, `rank` and `export` makes another design: \"Holes; texture.depth 300 nm\""),
       key("design_space.\"PATH\" = [low, high]",
-          "the search may change this number; PATH is any number of the design, e.g. "
+          "the search may change this number; PATH is a number of what is built, e.g. "
           "texture.depth"),
       key("design_space.\"PATH\" = { choice = [...] }", "the same, one of the listed values"),
       key("design_space.\"PATH\" = { range = [low, high], exclude = [[from, to]] }",

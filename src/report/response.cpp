@@ -149,8 +149,9 @@ std::string capillary_gain_line(const Response& response) {
 }
 
 // What no ± holds: choices of the model, each as far as the plan expects it to move the numbers.
-// water: whether what its free choices leave is said already.
-std::string choices_line(const Response& response, bool water) {
+std::string choices_line(const Response& response) {
+  const auto mean = summarise(Summary::Mean, kModulation, response);
+  const bool water = mean && mean->parts.water;  // what its free choices leave is said already
   std::vector<std::string> choices;
   for (const PlanStep& step : response.plan.steps) {
     if (step.piece == Piece::Water && step.error > 0 && !water)
@@ -197,7 +198,7 @@ std::string modulation_lines(const Response& response) {
     out += "error of the mean modulation: " + budget_text(*mean, response) + "\n";
   if (variation && variation->value != 0)
     out += "error of the variation: " + budget_text(*variation, response) + "\n";
-  return out + choices_line(response, mean && mean->parts.water);
+  return out;
 }
 
 // How far the field is from what air and dielectric hold, and what that says of the numbers.
@@ -473,17 +474,28 @@ std::string modulation_sparkline(const Response& response) {
   return out;
 }
 
+std::vector<std::string> caveats(const Response& response) {
+  std::string out;
+  if (response.driven) {
+    if (knows_driven(response)) out += choices_line(response);
+    out += capillary_gain_line(response) + field_lines(response);
+  }
+  for (const std::string& said : response.plan.warnings) out += "warning: " + said + "\n";
+  std::vector<std::string> lines = split(out, '\n');
+  lines.pop_back();  // what stands behind the last line's end
+  return lines;
+}
+
 std::string response_table(const Response& response) {
   std::string out = humidity_table(response);
-  out += response.driven ? modulation_lines(response) + capillary_gain_line(response) +
-                               source_line(response) + field_lines(response)
+  out += response.driven ? modulation_lines(response) + source_line(response)
                          : undriven_lines(response);
   if (response.appearance) out += appearance_line(*response.appearance);
   out += voltage_lines(response);
   if (response.accuracy.target > 0) out += target_lines(response);
   if (!response.parameters.steps.empty()) out += parameter_line(response.parameters);
   out += belief_lines(response);
-  for (const std::string& said : response.plan.warnings) out += "warning: " + said + "\n";
+  for (const std::string& line : caveats(response)) out += line + "\n";
   if (const auto said = response.said(); !said.empty()) out += "note: " + text(said) + "\n";
   return out;
 }

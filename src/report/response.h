@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/rooms.h"
 #include "forward/response.h"
@@ -10,6 +11,10 @@ namespace papilla::report {
 
 // Humidity table with error bars, summary lines, and what limits trust in it.
 std::string response_table(const Response& response);
+
+// What limits trust in it, a line each: choices that no ± holds, the field's limits and its rule,
+// loads beside the pull, what the grid does not resolve ("warning: ...").
+std::vector<std::string> caveats(const Response& response);
 
 // {"schema": 1, "points": [...], "summary": {...}, "plan": {...}, "seconds", "contact_solves",
 // "fft_pairs"}: fidelity.grid counts pixels along fidelity.window, plan.grid is the patch as run;

@@ -95,25 +95,32 @@ Json compared_json(const ResultFiles& f) {
   if (r.flat && textured)
     rows.push_back(
         compared_row(f, "the same without texture", "the same surface without texture", *r.flat));
-  if (r.flat_before && search::advice_of(f.problem, r) == Advice::Finish)
+  const bool own_flat = r.flat_before && search::advice_of(f.problem, r) == Advice::Finish;
+  if (own_flat)
     rows.push_back(compared_row(f, "flat, finish and drive of the study",
                                 "the surface of the study without texture", *r.flat_before));
   if (recommended.flat)
     rows.push_back(compared_row(f, design_name(r.finalists[r.best].folder) + ", with its texture",
                                 "the best design", r.finalists[r.best].confirmed));
-  std::vector<std::size_t> shown{r.best};
-  const auto add = [&](std::size_t design, const char* words, const std::string& of) {
-    if (std::find(shown.begin(), shown.end(), design) != shown.end()) return;
-    shown.push_back(design);
-    rows.push_back(compared_row(f, design_name(r.finalists[design].folder) + ", " + words, of,
-                                r.finalists[design].confirmed));
+  const FinalDesign& best = r.finalists[r.best];
+  std::vector<Point> shown{best.unit, recommended.unit};
+  if (own_flat) shown.push_back(f.problem.space().with_own_finish(best.unit));
+  const auto add = [&](const FinalDesign& design, const std::string& called, const char* words,
+                       const std::string& of) {
+    if (std::find(shown.begin(), shown.end(), design.unit) != shown.end()) return;
+    shown.push_back(design.unit);
+    rows.push_back(compared_row(f, called + ", " + words, of, design.confirmed));
   };
   if (const auto flat = best_flat(f.problem, r))
-    add(*flat, "best flat surface", "the best flat surface of the run");
+    add(*flat, flat_name(*flat), "best flat surface", "the best flat surface of the run");
+  const auto add_finalist = [&](std::size_t place, const char* words, const std::string& of) {
+    const FinalDesign& design = r.finalists[place];
+    add(design, design_name(design.folder), words, of);
+  };
   if (r.decision.made())
-    add(r.decision.nominal, "best by the fit alone", "the choice by the fit alone");
+    add_finalist(r.decision.nominal, "best by the fit alone", "the choice by the fit alone");
   if (const auto rival = design_to_measure(f))
-    add(*rival, "to measure beside it", "the design to measure");
+    add_finalist(*rival, "to measure beside it", "the design to measure");
   return {{"names", std::move(names)}, {"rows", std::move(rows)}};
 }
 
@@ -257,24 +264,17 @@ Json run_json(const ResultFiles& f) {
           {{"surface", name}, {"objectives", values_json(f, "the step \"" + name + "\"", *score)}});
   };
   const std::optional<Score> on_grid = worth_on_grid(f.problem, r);
-  const auto own_flat = [&] { step("flat, finish and drive of the study", r.flat_before); };
-  // Each step is from the one before it: the study's own surface comes last where it is that which
-  // is rounded.
-  const bool own_rounded =
-      search::advice_of(f.problem, r) == Advice::LeaveFlat && r.flat_before && on_grid;
-  if (!own_rounded) own_flat();
+  step("flat, finish and drive of the study", r.flat_before);
   step(r.flat_before ? "flat, finish and drive of the best" : "flat", r.flat);
-  if (own_rounded) own_flat();
   const bool textured = facts(recommended.design.texture).relief.present;
   if (textured) step("best, with its texture", recommended.confirmed);
   step(textured ? "best, on the grid of the fab" : "flat, on the grid of the fab", on_grid);
   out["steps"] = std::move(steps);
   out["best_flat"] = Json();
   if (const auto flat = best_flat(f.problem, r)) {
-    const FinalDesign& design = r.finalists[*flat];
     out["best_flat"] = {
-        {"surface", "best flat surface of this run, " + design_name(design.folder)},
-        {"objectives", values_json(f, "the best flat surface of the run", design.confirmed)}};
+        {"surface", "best flat surface of this run, " + flat_name(*flat)},
+        {"objectives", values_json(f, "the best flat surface of the run", flat->confirmed)}};
   }
   return out;
 }

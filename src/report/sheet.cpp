@@ -17,6 +17,7 @@
 #include "report/run_numbers.h"
 #include "report/tables.h"
 #include "report/yield.h"
+#include "search/advice.h"
 #include "search/rounding.h"
 
 namespace papilla::report {
@@ -143,11 +144,18 @@ std::string fab_grid_text(const ResultFiles& f) {
   return asked_length("grid of the fab", f.study.search.rounding);
 }
 
+namespace {
+
+// The study's own surface without a texture: nothing of it was searched, so nothing is rounded.
+bool is_as_in_file(const ResultFiles& f) {
+  return search::advice_of(f.problem, f.result) == Advice::LeaveFlat;
+}
+
+}  // namespace
+
 std::vector<std::string> off_the_grid(const ResultFiles& f) {
   std::vector<std::string> out;
-  // The study's own surface may lie beside the space, and is then as the file has it.
-  const bool as_in_file = f.result.build && f.result.build->made.unit.empty();
-  if (as_in_file || !(f.study.search.rounding > 0)) return out;
+  if (is_as_in_file(f) || !(f.study.search.rounding > 0)) return out;
   for (const SheetRow& row : sheet_rows(f)) {
     const auto found = std::find_if(f.study.variables.begin(), f.study.variables.end(),
                                     [&](const Variable& v) { return v.path == row.path; });
@@ -164,6 +172,7 @@ std::string grid_text(const ResultFiles& f) {
   const BuiltDesign& build = *f.result.build;
   const FinalDesign searched = recommended_of(f);
   if (!build.on_grid) return {};
+  if (is_as_in_file(f)) return " Finish and drive are those of the study file and are not rounded.";
   std::string out = fmt::format(
       " Periods and widths that were searched are on a grid of {} (`search.rounding`), and so are "
       "other lengths of {} and more; shorter ones are on a finer one (`best/build.toml`)",

@@ -112,10 +112,11 @@ std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
     row(flat_best ? "the flat surface, rounded to the grid of the fab"
                   : "best design, rounded to the grid of the fab",
         *rounded);
-  if (const auto flat = best_flat(f.problem, r); flat && *flat != r.best) {
-    const FinalDesign& other = r.finalists[*flat];
-    row(("best flat surface of this run, " + design_name(other.folder)).c_str(), other.confirmed);
-    difference("difference from the best flat surface", other.confirmed);
+  if (const auto flat = best_flat(f.problem, r)) {
+    // That of the study file is the first row.
+    if (!flat->flat)
+      row(("best flat surface of this run, " + flat_name(*flat)).c_str(), flat->confirmed);
+    difference("difference from the best flat surface, " + flat_name(*flat), flat->confirmed);
   }
   if (compared)
     out +=
@@ -197,7 +198,12 @@ std::string stability_text(const ResultFiles& f) {
       level_of_checks(f) + "; " + objectives.front().name +
       (objectives.size() > 1 ? ", " + objectives[1].name : "") +
       "; * on the front of these designs: it keeps every limit, and none is better in all "
-      "objectives by more than the error of their difference):\n\n|";
+      "objectives by more than the error of their difference" +
+      (f.problem.constraints().evaluated() == 0
+           ? ""
+           : "; a limit is judged by its confirmed number, moved as the change moves that of this "
+             "level, so that it may differ from an objective beside it") +
+      "):\n\n|";
   for (std::size_t i = 0; i < judged; ++i)
     out += " | " +
            (f.result.finalists[i].folder.empty() ? "(dominated)" : f.result.finalists[i].folder);

@@ -11,6 +11,7 @@
 #include "report/recommendation.h"
 #include "report/run_numbers.h"
 #include "report/surface_changes.h"
+#include "search/advice.h"
 #include "search/findings.h"
 
 namespace papilla::report {
@@ -18,20 +19,11 @@ namespace {
 
 bool has_texture(const Design& design) { return facts(design.texture).relief.present; }
 
-// Variables beside the texture that two surfaces have otherwise.
-std::vector<std::size_t> finish_apart(const ResultFiles& f, const Point& a, const Point& b) {
-  const std::vector<double> one = f.problem.space().value(a), other = f.problem.space().value(b);
-  std::vector<std::size_t> out;
-  for (std::size_t k = 0; k < one.size(); ++k) {
-    if (!f.study.variables[k].path.starts_with("texture.") && one[k] != other[k]) out.push_back(k);
-  }
-  return out;
-}
-
 // A finalist that is a surface's finish and drive without a texture.
 const FinalDesign* flat_finalist(const ResultFiles& f, const Point& surface) {
   for (const FinalDesign& d : f.result.finalists) {
-    if (!has_texture(d.design) && d.confirmed.ok && finish_apart(f, d.unit, surface).empty())
+    if (!has_texture(d.design) && d.confirmed.ok &&
+        search::finish_apart(f.problem, d.unit, surface).empty())
       return &d;
   }
   return nullptr;
@@ -40,8 +32,12 @@ const FinalDesign* flat_finalist(const ResultFiles& f, const Point& surface) {
 // A surface's confirmed numbers without its texture, where the run has them.
 const Score* without_texture(const ResultFiles& f, const Point& surface) {
   const OptimiseResult& r = f.result;
-  if (r.flat && finish_apart(f, r.finalists[r.best].unit, surface).empty()) return &*r.flat;
-  if (r.flat_before && finish_apart(f, f.problem.space().own_surface(), surface).empty())
+  if (r.flat && search::finish_apart(f.problem, r.finalists[r.best].unit, surface).empty())
+    return &*r.flat;
+  if (r.flat_before &&
+      search::finish_apart(f.problem, f.problem.space().with_own_finish(r.finalists[r.best].unit),
+                           surface)
+          .empty())
     return &*r.flat_before;
   const FinalDesign* flat = flat_finalist(f, surface);
   return flat ? &flat->confirmed : nullptr;
@@ -142,7 +138,7 @@ std::string known_beside(const ResultFiles& f, const Point& surface) {
   for (const Evaluation& e : f.history.evaluations) {
     if (!e.outcome.ok || has_texture(f.problem.space().design(e.unit))) continue;
     another = true;
-    if (!finish_apart(f, e.unit, surface).empty()) continue;
+    if (!search::finish_apart(f.problem, e.unit, surface).empty()) continue;
     std::vector<double> values = e.outcome.objectives;
     for (std::size_t k = 0; k < values.size(); ++k) {
       if (f.problem.objectives()[k].maximise) values[k] = -values[k];
@@ -171,7 +167,7 @@ std::string other_textures(const ResultFiles& f) {
     if (all.empty()) continue;  // it gains no more than instruments resolve
     std::vector<std::string> finish;
     const std::vector<double> values = f.problem.space().value(d.unit);
-    for (const std::size_t k : finish_apart(f, d.unit, recommended.unit)) {
+    for (const std::size_t k : search::finish_apart(f.problem, d.unit, recommended.unit)) {
       const Variable& v = f.study.variables[k];
       finish.push_back(plain_name(v.path) + " " + chosen_value(v, values[k], name));
     }

@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <string_view>
 
 #include "base/error.h"
 
@@ -38,6 +39,14 @@ int start_child(const std::vector<std::string>& words, const Handle& said, const
   for (int fd = kFirst; fd < kLast; ++fd) ::close(fd);  // sockets of the pages
   ::execv(argv[0], argv.data());
   ::_exit(127);
+}
+
+// Where the first line begins by which a program says why it ended.
+std::size_t error_at(const std::string& noted) {
+  constexpr std::string_view kError = "error:";
+  if (noted.starts_with(kError)) return 0;
+  const std::size_t at = noted.find("\n" + std::string(kError));
+  return at == std::string::npos ? at : at + 1;
 }
 
 }  // namespace
@@ -74,9 +83,21 @@ Handle emptied(const Folder& folder, std::string_view name) {
   return out;
 }
 
-std::string last_lines(const std::string& text) {
-  constexpr std::size_t kMost = 600;
-  return text.size() > kMost ? text.substr(text.size() - kMost) : text;
+bool says_an_error(const std::string& noted) { return error_at(noted) != std::string::npos; }
+
+std::string why_failed(const std::string& noted) {
+  constexpr std::size_t kMost = 600;  // a line that passes it is shown to its end
+  // The other mistakes of a file stand in lines of their own below the first.
+  if (const std::size_t at = error_at(noted); at != std::string::npos) {
+    const std::string errors = noted.substr(at);
+    const std::size_t end = errors.find('\n', kMost);
+    const bool more = end != std::string::npos && end + 1 < errors.size();
+    return more ? errors.substr(0, end) + "\n…\n" : errors;
+  }
+  if (noted.size() <= kMost) return noted;
+  const std::string tail = noted.substr(noted.size() - kMost);
+  const std::size_t line = tail.find('\n');  // the end of a line that began before
+  return line == std::string::npos || line + 1 == tail.size() ? tail : tail.substr(line + 1);
 }
 
 }  // namespace papilla::studio

@@ -36,7 +36,10 @@ class Child {
 // A file to hold what a child says, empty. Throws InputError.
 Handle emptied(const Folder& folder, std::string_view name);
 
-// The end of what a child noted, for people.
-std::string last_lines(const std::string& text);
+// Whether a child ended because of an error that it noted.
+bool says_an_error(const std::string& noted);
+// Why a child failed, of what it noted, for people: its errors, the first ones; the end of it where
+// it names none. Lines are whole.
+std::string why_failed(const std::string& noted);
 
 }  // namespace papilla::studio

@@ -353,20 +353,26 @@ std::vector<Comparison> Evaluator::comparisons(const Question& wish, Step step) 
     const double drift =
         step == Step::First ? difference_drift(quick(subject), quick(wish.at_hand)) : 0;
     for (const MetricExpression& e : compared) {
-      const auto a = summarise(e.summary, e.metric, *ours);
-      const auto b = summarise(e.summary, e.metric, *theirs);
-      if (!a || !b) continue;
-      auto error = difference_error(error_samples(e.summary, e.metric, *ours),
-                                    error_samples(e.summary, e.metric, *theirs));
-      if (error) error = std::hypot(*error, drift * a->value);
-      out.push_back({number, metric_text(e), a->value - b->value, error});
+      const auto value = summarise(e.summary, e.metric, *ours);
+      if (!value || !summarise(e.summary, e.metric, *theirs)) continue;
+      const ResponseDifference more = difference_of(e, *theirs, *ours);
+      Comparison& c = out.emplace_back();
+      c.pin = number, c.metric = metric_text(e), c.difference = more.value;
+      if (more.paired) c.error = std::hypot(more.error, drift * value->value);
+      if (more.model) c.model = more.model->deviation;
     }
   }
   return out;
 }
 
 void Evaluator::tell(const Question& wish, Step step, Response shown) {
-  Answer answer{wish.revision, step, std::move(shown), 0, comparisons(wish, step), {}};
+  Answer answer{wish.revision,
+                step,
+                std::move(shown),
+                0,
+                comparisons(wish, step),
+                {},
+                calibration_mismatch(wish.at_hand.design)};
   {
     const std::lock_guard lock(mutex_);
     if (const auto at = asked_at_.find(wish.revision); at != asked_at_.end()) {

@@ -37,7 +37,10 @@ struct Comparison {
   int pin = 0;
   std::string metric;  // "mean(modulation)"
   double difference = 0;
-  std::optional<double> error;
+  std::optional<double> error;  // numerical, one standard error
+  // What belief leaves of the difference, one standard deviation over members that both have (Eq.
+  // accuracy.15); none where it is not known: of first answers, and of fingers with other members.
+  std::optional<double> model;
 };
 
 // What a number of the design does to the answer: drafts a step below and above it, common skins.
@@ -58,6 +61,7 @@ struct Answer {
   double seconds = 0;                   // from the wish on
   std::vector<Comparison> comparisons;  // with pins of the same step
   std::map<int, Response> pinned;       // the finest known of each
+  std::vector<std::string> unfitted;    // model options that the finger was not fitted with
 };
 
 struct Listener {

@@ -169,9 +169,15 @@ Json Files::export_preview(const Study& study) const {
           {"formats", formats}};
 }
 
-Json Files::export_files(const Study& study, const std::string& name) const {
-  const fs::path folder =
-      handle_.made_below(inside(folder_, name).lexically_relative(folder_).string()).path();
+Json Files::export_files(const Study& study, const std::string& name, bool overwrite) const {
+  const fs::path target = inside(folder_, name), below = target.lexically_relative(folder_);
+  if (*below.begin() == kSearches)
+    throw InputError(
+        {Problem{name, 0, 0, "", "is a folder of searches; choose another name, as export/mine"}});
+  if (!overwrite && fs::exists(target) && !(fs::is_directory(target) && fs::is_empty(target)))
+    throw InputError(
+        {Problem{name, 0, 0, "", "is there already: overwrite its files, or choose another name"}});
+  const fs::path folder = handle_.made_below(below.string()).path();
   ExportOptions options;
   options.pixels = kExportPixels;
   options.polarity = Polarity::WhiteDeep;

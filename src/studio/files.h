@@ -37,8 +37,11 @@ class Files {
   std::string target(const std::string& name, bool overwrite) const;
   // Written whole or not at all, read back and compared before it gets its name. Throws InputError.
   void save(const Draft& draft, const Study& study, const std::string& target) const;
-  // Masks and heights into a folder, with the verdict on each file; a minute for large ones.
-  nlohmann::ordered_json export_files(const Study& study, const std::string& name) const;
+  // Masks and heights into a folder, with the verdict on each file; a minute for large ones. Throws
+  // InputError for a folder that holds something unless it is to be overwritten, and for one of a
+  // search.
+  nlohmann::ordered_json export_files(const Study& study, const std::string& name,
+                                      bool overwrite) const;
   // What an export would be: margins against the constraints, formats. At once.
   nlohmann::ordered_json export_preview(const Study& study) const;
   // A dropped map of heights, kept under scans/. What is kept there stays: another map of the same

@@ -108,14 +108,33 @@ const char* type_name(KeyType type) {
   throw InputError({Problem{"", 0, 0, path, message}});
 }
 
-// "262 nm", or a bare number in the unit of the key.
+// "262 nm", or a bare number in the unit of the key where nothing else can be meant.
 std::string number_text(const FormKey& key, const std::string& text) {
   const auto q = parse_quantity(text);
+  // The page takes a decimal comma for a point where nothing else can be meant.
+  const std::size_t comma = text.find(',');
+  const bool number = comma != std::string::npos && parse_quantity(text.substr(0, comma));
+  if (!q && number) {
+    refuse(key.path, fmt::format("\"{}\" may be of a decimal comma or of thousands; write a point "
+                                 "(1.2) or the digits alone (1200)",
+                                 text));
+  }
   if (!q) refuse(key.path, "expected a number" + (key.unit.empty() ? "" : " in " + key.unit));
   if (key.unit.empty()) return format_number(parse_si(text, ""));
-  const bool bare = q->unit.empty();
-  return bare ? fmt::format("{} {}", format_number(q->value), key.unit)
-              : format_quantity(parse_si(text, key.unit), key.unit);
+  if (!q->unit.empty()) return format_quantity(parse_si(text, key.unit), key.unit);
+  if (const BareNumber bare = bare_number(q->value, key.unit); bare.ambiguous)
+    refuse(key.path, bare.advice);
+  return fmt::format("{} {}", format_number(q->value), key.unit);
+}
+
+std::string whole_text(const FormKey& key, const std::string& text) {
+  const auto q = parse_quantity(text);
+  if (!q || !q->unit.empty() || q->value != std::floor(q->value))
+    refuse(key.path, "expected a whole number");
+  if (q->value < key.low || q->value > key.high)
+    refuse(key.path, fmt::format("{} is outside {} to {}", format_number(q->value),
+                                 format_number(key.low), format_number(key.high)));
+  return fmt::format("{}", static_cast<long long>(q->value));
 }
 
 std::string list_text(const FormKey& key, const std::string& text) {
@@ -137,11 +156,8 @@ std::string value_text(const FormKey& key, const std::string& text) {
       return number_text(key, text);
     case KeyType::Numbers:
       return list_text(key, text);
-    case KeyType::Integer: {
-      const double v = parse_si(text, "");
-      if (!(std::abs(v) <= 1e9) || v != std::floor(v)) refuse(key.path, "expected a whole number");
-      return fmt::format("{}", static_cast<long long>(v));
-    }
+    case KeyType::Integer:
+      return whole_text(key, text);
     case KeyType::Flag:
       if (text != "true" && text != "false") refuse(key.path, "expected true or false");
       return text;

@@ -127,7 +127,7 @@ void LabDesk::ended(const std::string& results, bool done) {
   doing_.clear();
   if (!trouble_.empty() || stopping_ || done) return;
   const std::string log = results + "/" + kNoted;
-  trouble_ = folder_.has(log) ? visible(last_lines(folder_.read(log))) : "the lab failed";
+  trouble_ = folder_.has(log) ? visible(why_failed(folder_.read(log))) : "the lab failed";
   trouble_of_ = results;
 }
 

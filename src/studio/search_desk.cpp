@@ -6,7 +6,6 @@
 #include <charconv>
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -25,7 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kSearches = "searches";
 constexpr const char* kLog = "log.txt";
 constexpr const char* kLastWord = "5 min";  // of a search that is stopped
 
@@ -77,12 +75,6 @@ int number_of(const std::string& name) {
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), out);
   const bool whole = error == std::errc{} && end == name.data() + name.size();
   return whole && name == fmt::format("{:03}", out) ? out : 0;
-}
-
-// That a program ended because of it.
-bool says_an_error(const std::string& log) {
-  constexpr std::string_view kError = "error:";
-  return log.starts_with(kError) || log.find("\n" + std::string(kError)) != std::string::npos;
 }
 
 Json csv_rows(const std::string& text) {
@@ -154,7 +146,7 @@ void SearchDesk::take_up(int number) {
     const bool finished = ended_ && folder_.has(in_place("run.json"));
     const bool refused = !folder_.has(in_place(kJournalName)) && says_an_error(log());
     state_ = finished ? SearchState::Finished : refused ? SearchState::Failed : SearchState::Paused;
-    if (refused) trouble_ = last_words();
+    if (refused) trouble_ = trouble_of_log();
   } catch (const InputError& error) {
     state_ = SearchState::Failed;
     trouble_ = error.what();
@@ -259,10 +251,14 @@ void SearchDesk::resume() {
 
 void SearchDesk::stop() {
   std::unique_lock lock(mutex_);
+  const auto is_open = [&] {
+    return state_ == SearchState::Running || state_ == SearchState::Paused;
+  };
+  // Before its program is asked to end: a search that is refused a stop goes on.
+  if (is_open() && found_.empty())
+    throw InputError("no design was judged yet: pause the search instead");
   if (state_ == SearchState::Running) stop_child(lock);
-  if (state_ != SearchState::Running && state_ != SearchState::Paused)
-    throw InputError("no search is running");
-  if (found_.empty()) throw InputError("no design was judged yet: pause the search instead");
+  if (!is_open()) throw InputError("no search is running");
   launch(true, true);
 }
 
@@ -307,7 +303,7 @@ void SearchDesk::wait_for_child() {
   const bool paused = stopping_ || *code >= 128;
   stopping_ = false;
   state_ = finished ? SearchState::Finished : paused ? SearchState::Paused : SearchState::Failed;
-  if (state_ == SearchState::Failed && trouble_.empty()) trouble_ = last_words();
+  if (state_ == SearchState::Failed && trouble_.empty()) trouble_ = trouble_of_log();
   changed_.notify_all();
 }
 
@@ -315,7 +311,7 @@ std::string SearchDesk::log() const {
   return folder_.has(in_place(kLog)) ? folder_.read(in_place(kLog)) : "";
 }
 
-std::string SearchDesk::last_words() const { return visible(last_lines(log())); }
+std::string SearchDesk::trouble_of_log() const { return visible(why_failed(log())); }
 
 std::string SearchDesk::results() const {
   const std::lock_guard lock(mutex_);

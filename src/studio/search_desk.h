@@ -106,8 +106,8 @@ class SearchDesk {
   void begin_reading();
   nlohmann::ordered_json front_json() const;
   nlohmann::ordered_json recommended_json() const;
-  std::string log() const;         // of the program; empty: it said nothing
-  std::string last_words() const;  // of that, for people
+  std::string log() const;             // of the program; empty: it said nothing
+  std::string trouble_of_log() const;  // of that, for people
   void stop_child(std::unique_lock<std::mutex>& lock);
 
   Folder folder_;

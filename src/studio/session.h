@@ -19,6 +19,8 @@ namespace papilla::studio {
 
 // Where the studio keeps what is its own, below the folder that it works in.
 inline constexpr const char* kStudioFolder = ".studio";
+// Where its searches are, each in a folder of its number.
+inline constexpr const char* kSearches = "searches";
 
 // A design as a file and what was changed of it.
 struct Draft {

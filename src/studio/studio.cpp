@@ -73,7 +73,8 @@ Json comparisons_json(const std::vector<Comparison>& comparisons) {
     out.push_back({{"pin", c.pin},
                    {"metric", c.metric},
                    {"difference", json_number(c.difference)},
-                   {"error", json_number(c.error)}});
+                   {"error", json_number(c.error)},
+                   {"model", json_number(c.model)}});
   }
   return out;
 }
@@ -102,15 +103,24 @@ Json slopes_json(const std::vector<Slope>& slopes) {
   return out;
 }
 
+// What limits trust in the numbers, in the lines of papilla evaluate; evaluate refuses models that
+// the finger was not fitted with, a page that is moved by hand says them beside each answer.
+Json caveats_json(const Answer& answer) {
+  Json out = Json::array();
+  for (const std::string& line : answer.unfitted) out.push_back("warning: " + line);
+  for (const std::string& line : caveats(answer.response)) out.push_back(line);
+  return out;
+}
+
 std::string answer_json(const Answer& answer) {
   std::string pinned;
   for (const auto& [number, response] : answer.pinned)
     pinned += fmt::format("{}\"{}\":{}", pinned.empty() ? "" : ",", number,
                           response_json(response, false, -1));
   return fmt::format(
-      R"({{"revision":{},"step":"{}","seconds":{:.4f},"comparisons":{},"pinned":{{{}}},"response":{}}})",
+      R"({{"revision":{},"step":"{}","seconds":{:.4f},"comparisons":{},"pinned":{{{}}},"caveats":{},"response":{}}})",
       answer.revision, name_of(answer.step), answer.seconds,
-      comparisons_json(answer.comparisons).dump(), pinned,
+      comparisons_json(answer.comparisons).dump(), pinned, caveats_json(answer).dump(),
       response_json(answer.response, false, -1));
 }
 
@@ -118,7 +128,6 @@ Json look_json(const Design& design) {
   const Optics look = appearance_of(design);
   const bool refused = look.refused();
   const auto value = [&](double v) { return refused ? Json(nullptr) : json_number(v); };
-  const FabricationMargins& margins = facts(design.texture).margins;
   return {{"regime", text(look.regime)},
           {"warning", look.warning},
           {"haze", value(look.haze)},
@@ -127,11 +136,15 @@ Json look_json(const Design& design) {
           {"total_transmittance", value(look.total_transmittance)},
           {"distinctness", value(look.distinctness)},
           {"sparkle", value(look.sparkle)},
-          {"colour_shift", value(look.colour_shift)},
-          {"min_hole", json_number(margins.min_hole)},
+          {"colour_shift", value(look.colour_shift)}};
+}
+
+Json margins_json(const Texture& texture) {
+  const FabricationMargins& margins = facts(texture).margins;
+  return {{"min_hole", json_number(margins.min_hole)},
           {"min_wall", json_number(margins.min_wall)},
           {"aspect_ratio", json_number(margins.aspect_ratio)},
-          {"of_parts", std::holds_alternative<Stack>(design.texture.kind)}};
+          {"of_parts", std::holds_alternative<Stack>(texture.kind)}};
 }
 
 // The pinned designs by their numbers. One whose file is gone, or is no design any more, is left
@@ -218,6 +231,7 @@ Listener Studio::listener() {
   out.answer = [this](const Answer& a) { events_.tell(Topic::Response, answer_json(a)); };
   out.shape = [this](std::uint64_t revision, const Design& design) {
     Json shape = shape_json(design.texture);
+    shape["margins"] = margins_json(design.texture);
     shape["revision"] = revision;
     events_.tell(Topic::Shape, shape.dump());
   };
@@ -380,7 +394,7 @@ void Studio::add_file_routes() {
   };
   routes_["POST /export"] = [this](const Asked& a) {
     const std::lock_guard one(computing_);
-    return files_.export_files(session_.view().study, a.text("name")).dump();
+    return files_.export_files(session_.view().study, a.text("name"), a.flag("overwrite")).dump();
   };
   routes_["POST /scan"] = [this](const Asked& a) {
     return files_.keep_scan(a.request.query, a.request.body).dump();

@@ -117,6 +117,25 @@ TEST(Quantities, AreRefusedWithTheWayOut) {
             "\"1 m4\" is another kind of quantity, expected a pressure; write it like \"1 Pa\"");
 }
 
+TEST(Quantities, WithoutAUnitAreAskedForItAsTheyMayBeMeant) {
+  const auto asked = [](double value, const char* unit) {
+    const BareNumber bare = bare_number(value, unit);
+    return (bare.ambiguous ? "ambiguous: " : "") + bare.advice;
+  };
+  EXPECT_EQ(asked(0.07, "%"),
+            "ambiguous: needs a unit: \"7 %\" if 0.07 is a share of 1, \"0.07 %\" if it is in "
+            "percent");
+  EXPECT_EQ(asked(1.5, "%"), "needs a unit, e.g. \"1.5 %\"");
+  EXPECT_EQ(asked(0, "%"), "needs a unit, e.g. \"0 %\"");
+  EXPECT_EQ(asked(5700, "kHz"),
+            "ambiguous: needs a unit: \"5.7 kHz\" if 5700 is in Hz, \"5700 kHz\" if it is in kHz");
+  EXPECT_EQ(asked(3.3e-6, "um"),
+            "ambiguous: needs a unit: \"3.3 um\" if 3.3e-6 is in m, \"3.3e-6 um\" if it is in um");
+  EXPECT_EQ(asked(5, "kHz"), "needs a unit, e.g. \"5 kHz\"");
+  EXPECT_EQ(asked(-3e-6, "um"), "needs a unit, e.g. \"-3e-6 um\"");
+  EXPECT_EQ(asked(0.5, "deg"), "needs a unit, e.g. \"0.5 deg\"");
+}
+
 // Plain from 0.00001 to a million in whole digits, and no more zeros than six behind the digits.
 TEST(Quantities, NumbersTurnToAnExponentWhereZerosWouldBeCounted) {
   for (const auto& [value, text] : {std::pair{0.0, "0"},

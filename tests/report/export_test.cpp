@@ -49,8 +49,12 @@ TEST(ExportReport, ForPeopleHasTheSizeInItsUnits) {
   EXPECT_EQ(export_text(e, "out", felt()),
             "out/heightmap.gsf\nout/heightmap.png\nout/export.json\n"
             "size 4 x 9 um, 2 x 3 pixels of 2000 x 3000 nm, 8 x 4 periods of 0.5 x 2.25 um\n"
-            "smallest hole 2 um, smallest wall 1.5 um (pixel 0.03 um); mean(modulation) 0.2, of "
+            "at half the depth smallest hole 2 um, smallest wall 1.5 um (pixel 0.03 um); "
+            "mean(modulation) 0.2, of "
             "the design 0.25: 20 % off\n");
+  e.heightmap.grid.lx = 1.000002;
+  EXPECT_NE(export_text(e, "out", {}).find("size 1000002 x 9 um"), std::string::npos);
+  e.heightmap.grid.lx = 4e-6;
   // A layout of an array has no pixels.
   e.array = LayoutArray{};
   e.files = {{"gds", "out/texture.gds"}, {"oasis", "out/texture.oas"}};
@@ -65,11 +69,16 @@ TEST(ExportReport, AVerdictIsALineAFileAndALineAFault) {
             "out/mask.tif       differs\n"
             "out/a.png          missing\n"
             "out/b.png          unreadable\n"
-            "smallest hole 2 um, smallest wall 1.5 um (pixel 0.03 um); mean(modulation) 0.2, of "
+            "at half the depth smallest hole 2 um, smallest wall 1.5 um (pixel 0.03 um); "
+            "mean(modulation) 0.2, of "
             "the design 0.25: 20 % off\n");
   EXPECT_EQ(fault_lines(v),
             (std::vector<std::string>{"out/mask.tif: too wide", "out/mask.tif: too deep",
                                       "out/a.png: is not there", "out/b.png: no PNG", "is felt"}));
+  v.felt->against = "the design with the process undone";
+  EXPECT_NE(verdict_text(v).find("0.2, of the design with the process undone 0.25: 20 % off"),
+            std::string::npos)
+      << verdict_text(v);
   v.felt->pixels.min_wall = kInfinity;
   EXPECT_NE(verdict_text(v).find("smallest hole 2 um"), std::string::npos);
   v.felt->pixels.min_hole = kInfinity;  // a surface without edges has none to speak of
@@ -124,6 +133,7 @@ TEST(ExportReport, VerdictsOfFoldersAreSoundTogether) {
             {"min_wall", 1.5e-6},
             {"pixel", 3e-8},
             {"merit", "mean(modulation)"},
+            {"against", "the design"},
             {"design", 0.25},
             {"file", 0.2},
             {"loss", 0.2},

@@ -463,5 +463,62 @@ TEST(Pages, OfAnUnfinishedSearchHoldItsStudy) {
   EXPECT_EQ(page.data["study"], read_bytes(folder + "/study.toml"));
 }
 
+// Without scripts too: how far it is, the front in the units that people read, the study.
+TEST(Pages, OfAnUnfinishedSearchSayWithoutScriptsWhatWasFound) {
+  const std::string folder = fresh("unfinished_plain");
+  write_bytes(folder + "/study.toml",
+              "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\ntitle = \"mine\"\n");
+  const auto point = [](double friction, const char* depth) {
+    return Json{{"values", Json::array({depth})},
+                {"objectives", Json::array({friction})},
+                {"ok", true},
+                {"feasible", true}};
+  };
+  const Json depth{{"path", "texture.depth"}, {"unit", "nm"}},
+      friction{{"name", "mean(friction)"}, {"maximise", false}, {"scale", 1e3}, {"unit", "mN"}};
+  Json search{
+      {"state", "paused"},
+      {"done", 3},
+      {"total", 30},
+      {"trouble", ""},
+      {"variables", Json::array({depth})},
+      {"objectives", Json::array({friction})},
+      {"points", Json::array({point(0.2, "300 nm"), point(0.1234, "250 nm"), point(0.3, "1 nm")})},
+      {"front", Json::array({1})}};
+  const auto without_scripts = [&] {
+    const std::string text = unfinished_page(folder, search);
+    const std::size_t begin = text.find("<noscript>");
+    return text.substr(begin, text.find("</noscript>") - begin);
+  };
+  const std::string told = without_scripts();
+  for (const char* part : {"Not finished: 3 of 30 designs were judged. The search is paused.",
+                           "<th>mean(friction) [mN]</th><th>texture.depth</th>",
+                           "<td>123</td><td>250 nm</td>", "title = \"mine\""})
+    EXPECT_NE(told.find(part), std::string::npos) << part << "\n" << told;
+  EXPECT_EQ(told.find("300 nm"), std::string::npos);
+  EXPECT_EQ(told.find("No design keeps"), std::string::npos);
+  search["front"] = Json::array({0, 1});  // as they were judged; the least friction is the best
+  EXPECT_LT(without_scripts().find("250 nm"), without_scripts().find("300 nm"));
+  search["front"] = Json::array({1});
+  search["points"][1]["feasible"] = false;
+  EXPECT_NE(without_scripts().find("No design keeps every limit yet: the nearest is shown."),
+            std::string::npos);
+  search["points"][1]["objectives"] = Json::array({1.234});
+  EXPECT_NE(without_scripts().find("<td>1230</td>"), std::string::npos);
+  // The nearest of designs that were all refused before an evaluation has no numbers.
+  search["points"][1]["ok"] = false;
+  search["points"][1]["objectives"] = Json::array();
+  EXPECT_NE(without_scripts().find("<td></td><td>250 nm</td>"), std::string::npos)
+      << without_scripts();
+  // Of designs that all failed not even that.
+  search["front"] = Json::array();
+  search["state"] = "failed";
+  search["trouble"] = "error: one\nanother\n";
+  for (const char* part :
+       {"The search has failed. No design", "has that.</p>\n<p>error: one</p>\n<p>another</p>\n",
+        "No design that was judged has an answer yet."})
+    EXPECT_NE(without_scripts().find(part), std::string::npos) << part << "\n" << without_scripts();
+}
+
 }  // namespace
 }  // namespace papilla::tests::page_parts_test

@@ -100,12 +100,13 @@ TEST(Reference, ForPeopleATableHasItsHeadingAndNoRules) {
   EXPECT_TRUE(study.starts_with("study: The sections that only a study has.\n\nbase   ")) << study;
   EXPECT_NE(study.find("\n\nsearch\nsearch.method  "), std::string::npos) << study;
   EXPECT_EQ(study.find('|'), std::string::npos);
-  EXPECT_NE(study.find("constraints.min_hole                 smallest hole or gap between features "
-                       "(at least, in um)\n"),
-            std::string::npos);
-  EXPECT_NE(study.find("constraints.aspect_ratio             largest depth / smallest width of a "
-                       "hole (at most)\n"),
-            std::string::npos);
+  EXPECT_NE(
+      study.find("constraints.min_hole                 smallest hole or gap between features, at "
+                 "its floor; of gradual profiles at half the depth"),
+      std::string::npos);
+  EXPECT_NE(
+      study.find("constraints.aspect_ratio             largest depth / smallest hole or wall"),
+      std::string::npos);
 }
 
 TEST(Reference, ForProgramsAPlainTableHasMeaningsAlone) {

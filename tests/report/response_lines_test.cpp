@@ -151,6 +151,33 @@ TEST(ResponseLines, OfTheFieldSayTheWorstOfAllHumidities) {
   }
 }
 
+// One list for the table and for the studio's page: with its lines the table ends, before notes.
+TEST(ResponseLines, ThatLimitTrustEndTheTable) {
+  Response r;
+  r.driven = true;
+  r.points = {point(0.15, 0.1)};
+  r.points[0].electrostatic_force.value = 0.1, r.points[0].capillary_gain = 0.4;
+  r.points[0].over_limit_area = 0.3, r.points[0].over_limit_share = 0.4;
+  r.points[0].field_error = 0.02;
+  r.appearance = Optics{};
+  r.plan.warnings = {"one", "two"};
+  const std::vector<std::string> lines = caveats(r);
+  ASSERT_EQ(lines.size(), 6u);
+  EXPECT_TRUE(lines[0].starts_with("not in ±: choices of the model")) << lines[0];
+  EXPECT_TRUE(lines[1].starts_with("F_on follows the pull and the capillary force")) << lines[1];
+  EXPECT_TRUE(lines[2].starts_with("air beyond its breakdown field on up to 30.0 %")) << lines[2];
+  EXPECT_TRUE(lines[3].ends_with("by the 3-D field; good to 2 %")) << lines[3];
+  EXPECT_EQ(lines[4], "warning: one");
+  EXPECT_EQ(lines[5], "warning: two");
+  std::string all;
+  for (const std::string& line : lines) all += line + "\n";
+  EXPECT_TRUE(response_table(r).ends_with("\n" + all)) << response_table(r);
+  r.driven = false;
+  EXPECT_EQ(caveats(r), (std::vector<std::string>{"warning: one", "warning: two"}));
+  r.plan.warnings.clear();
+  EXPECT_TRUE(caveats(r).empty());
+}
+
 TEST(ResponseLines, ASparklineHasEightHeights) {
   Response r;
   r.driven = true;

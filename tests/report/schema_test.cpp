@@ -197,7 +197,9 @@ TEST(JsonSchema, WishesAreMetricsOverHumidity) {
 
 TEST(JsonSchema, ConstraintsHaveTheirUnitsOrAreOfMetrics) {
   const Json& hole = property("constraints", "min_hole");
-  EXPECT_EQ(hole["description"], "smallest hole or gap between features");
+  EXPECT_EQ(
+      hole["description"],
+      "smallest hole or gap between features, at its floor; of gradual profiles at half the depth");
   expect_pattern(hole, {"0.4 um"}, {"0.4", "0.4 V"});
   EXPECT_EQ(property("constraints", "aspect_ratio")["anyOf"][0],
             (Json{{"type", "number"}, {"minimum", 0.0}, {"maximum", 1e9}}));

@@ -843,11 +843,11 @@ TEST(YieldText, AToleranceOfACompetingKindHasItsUnit) {
   EXPECT_EQ(tolerance_text(study, 0), "± 20 nm");
 }
 
-// Each step is from the one before it: the study's own surface, which is rounded, comes last.
+// Each step is from the one before it.
 TEST(RunSteps, RoundTheSurfaceThatIsRecommended) {
   Searched run;
-  run.result.flat = run.result.flat_before = score(0.5, 0.3, 0.25);
-  ASSERT_EQ(advice_of(run.problem, run.result), Advice::LeaveFlat);
+  run.result.flat = score(0.5, 0.3, 0.25);
+  ASSERT_EQ(advice_of(run.problem, run.result), Advice::Finish);
   run.result.build = BuiltDesign{run.result.finalists[0], false};
   run.result.build->made.unit.front() += 1e-3;
   run.result.build->made.design.texture = Texture{};
@@ -855,8 +855,8 @@ TEST(RunSteps, RoundTheSurfaceThatIsRecommended) {
   std::vector<std::string> surfaces;
   const auto json = as_read(run_json(run.files()));
   for (const auto& step : json["steps"]) surfaces.push_back(step["surface"].get<std::string>());
-  EXPECT_EQ(surfaces, (std::vector<std::string>{"flat, finish and drive of the best",
-                                                "flat, finish and drive of the study",
+  EXPECT_EQ(surfaces, (std::vector<std::string>{"flat, finish and drive of the study",
+                                                "flat, finish and drive of the best",
                                                 "flat, on the grid of the fab"}));
 }
 
@@ -879,6 +879,70 @@ TEST(BuildSheet, ComparesWithTheBestFlatSurfaceOfTheRunToo) {
   EXPECT_NE(result_table(run.study, run.result).find("| front/02 |  |  |  | 40 deg |"),
             std::string::npos)
       << result_table(run.study, run.result);
+}
+
+// Of the surfaces that the best is compared with too; one that breaks a limit counts for nothing,
+// and of one that was confirmed twice that on the patch of the best counts.
+TEST(BuildSheet, TakesTheBestFlatSurfaceOfAllThatWereConfirmed) {
+  Searched run;
+  FinalDesign& flat = run.result.finalists[1];
+  flat.unit = run.problem.space().unit({5e-6, 3e-6, 0, 40 * kPi / 180});
+  flat.design = run.problem.space().design(flat.unit);
+  flat.confirmed = score(0.3, 0.9, 0.1);
+  flat.feasible = flat.on_front = true, flat.folder = "front/02";
+  const std::string against = "Against the best flat surface of this run, ";
+  const auto lead = [&] { return as_read(recommendation(run.files())); };
+  // Its own surface without the texture is the best: that is said already.
+  ASSERT_EQ(advice_of(run.problem, run.result), Advice::Texture);
+  EXPECT_FALSE(best_flat(run.problem, run.result));
+  EXPECT_EQ(lead().find(against), std::string::npos) << lead();
+  EXPECT_TRUE(as_read(run_json(run.files()))["best_flat"].is_null());
+  // The study's own is.
+  run.result.flat_before = score(0.45, 0.45, 0.15);
+  EXPECT_NE(
+      lead().find(against + "that of the study file (contact angle of water 50 deg), it raises "
+                            "mean(modulation) by 0.050"),
+      std::string::npos)
+      << lead();
+  EXPECT_NE(as_read(run_summary(run.files()))
+                .find("| difference from the best flat surface, that of the study file | +0.050"),
+            std::string::npos)
+      << as_read(run_summary(run.files()));
+  flat.unit = *run.problem.space().flattened(
+      run.problem.space().with_own_finish(run.result.finalists[0].unit));
+  flat.design = run.problem.space().design(flat.unit);
+  flat.confirmed = score(0.46, 0.45, 0.15);
+  ASSERT_TRUE(best_flat(run.problem, run.result));
+  EXPECT_EQ(best_flat(run.problem, run.result)->confirmed.values[0], 0.45);
+  run.result.flat_before->oxide_margin = 1.5;  // of 2 at least
+  EXPECT_FALSE(best_flat(run.problem, run.result));
+}
+
+// Of a run that recommends the study's own surface nothing was searched, so nothing is rounded.
+TEST(BuildSheet, SaysThatTheStudysOwnSurfaceIsNotRounded) {
+  Searched run;
+  run.result.flat = score(0.5, 0.3, 0.25);
+  run.result.flat_before = score(0.51, 0.3, 0.25);
+  ASSERT_EQ(advice_of(run.problem, run.result), Advice::LeaveFlat);
+  run.result.build = BuiltDesign{recommended_design(run.problem, run.result), false};
+  const std::string sheet = as_read(sheet_text(run.files()));
+  EXPECT_NE(sheet.find("Finish and drive are those of the study file and are not rounded."),
+            std::string::npos)
+      << sheet;
+  EXPECT_EQ(sheet.find("search.rounding"), std::string::npos) << sheet;
+  // It is the best flat surface of the run too: that is one surface, in one row.
+  ASSERT_TRUE(best_flat(run.problem, run.result));
+  const auto json = as_read(run_json(run.files()));
+  std::vector<std::string> beside;
+  for (const auto& row : json["compared"]["rows"]) beside.push_back(row["surface"]);
+  EXPECT_EQ(beside, (std::vector<std::string>{"without texture, recommended",
+                                              "design 01, with its texture"}));
+  // Who exports it is told the same.
+  const std::string folder = temporary("own_surface");
+  std::filesystem::create_directories(folder);
+  write_bytes(folder + "/run.json", json.dump());
+  EXPECT_EQ(build_sheet_text(folder),
+            "finish and drive are those of the study file, which are not rounded");
 }
 
 // A rounded design that keeps not every limit says which, by how much.
@@ -1106,7 +1170,7 @@ TEST(BuildSheet, OfASurfaceBesideTheFrontSaysThatHowSureItIsWasNotJudged) {
   FinalDesign& best = run.result.finalists[0];
   best.unit = *run.problem.space().flattened(best.unit);
   best.design = run.problem.space().design(best.unit);
-  flat.unit = *run.problem.space().flattened(run.problem.space().own_surface());
+  flat.unit = run.problem.space().snapped(run.problem.space().with_own_finish(best.unit));
   flat.design = run.problem.space().design(flat.unit);
   run.result.flat.reset();
   run.result.flat_before = best.confirmed;

@@ -184,17 +184,38 @@ TEST_F(Answers, AreToldAsOneLineEach) {
     seen = page.read_until("no such text", 0.1);  // the rest of its line
   const std::string line = seen.substr(at, seen.find('\n', at) - at);
   const Json told = Json::parse(line);
-  EXPECT_EQ(told.size(), 6u);
+  EXPECT_EQ(told.size(), 7u);
   EXPECT_EQ(told["step"], "first");
   EXPECT_EQ(told["comparisons"], Json::array());
   EXPECT_EQ(told["pinned"], Json::object());
+  // As papilla evaluate says it of these numbers, in its words.
+  ASSERT_FALSE(told["caveats"].empty());
+  bool air = false;
+  for (const std::string caveat : told["caveats"])
+    air = air || caveat.starts_with("air beyond its breakdown field on up to ");
+  EXPECT_TRUE(air) << told["caveats"];
   EXPECT_GT(told["seconds"].get<double>(), 0);
   EXPECT_LT(told["seconds"].get<double>(), 60);
   EXPECT_FALSE(told["response"].contains("seconds"));
   EXPECT_FALSE(told["response"]["points"].empty());
 }
 
-// Of a stack they are of each part alone, and its parts may leave less between them.
+// A page is moved where papilla evaluate refuses: it says so beside each answer.
+TEST_F(Answers, SayTheModelOptionsThatTheFingerWasNotFittedWith) {
+  const Place place(studio_.address());
+  Connection page(place.port);
+  page.send(place.own("GET", "events"));
+  const std::uint64_t revision =
+      ask("/set", {{"path", "model.rim_pinning"}, {"value", "true"}})["revision"];
+  const std::string begin =
+      "event: response\ndata: {\"revision\":" + std::to_string(revision) + ",";
+  page.read_until(begin, 60);
+  EXPECT_NE(page.read_until("was fitted with false", 60).find("warning: model.rim_pinning is true"),
+            std::string::npos);
+}
+
+// Of a stack they are of each part alone, and its parts may leave less between them. They come with
+// the shape, at once, and not with the look, which waits until nothing moves.
 TEST(Studio, SaysWhoseTheSmallestWidthsAre) {
   for (const bool stack : {false, true}) {
     const TemporaryFolder folder;
@@ -212,7 +233,10 @@ TEST(Studio, SaysWhoseTheSmallestWidthsAre) {
     Connection page(place.port);
     page.send(place.own("GET", "events"));
     const std::string wanted = stack ? "\"of_parts\":true" : "\"of_parts\":false";
-    EXPECT_NE(page.read_until(wanted, 60).find(wanted), std::string::npos) << wanted;
+    const std::string seen = page.read_until(wanted, 60);
+    ASSERT_NE(seen.find(wanted), std::string::npos) << wanted;
+    const std::string event = "\nevent: ";
+    EXPECT_EQ(seen.substr(seen.rfind(event) + event.size(), 5), "shape");
   }
 }
 

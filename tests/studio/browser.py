@@ -198,7 +198,11 @@ def smoke(browser, folder):
         browser.run("const f = document.getElementById('filter'); f.value = ''; f.dispatchEvent(new Event('input'))")
         browser.run("const i = document.getElementById('k-texture-period'); i.value = '6,5 µm'; i.dispatchEvent(new Event('change'))")
         until(browser, "papilla.session().keys.find(k => k.path === 'texture.period').value === '6.5 um'", 10, "a decimal comma")
+        until(browser, "document.title.includes('texture.period 6.5 µm') && document.getElementById('title').textContent.includes('texture.period 6.5 µm')", 10, "the title as people read it")
         browser.run("document.getElementById('undo').click()")
+        # Before three digits it may be of thousands.
+        browser.run("const i = document.getElementById('k-texture-depth'); i.value = '1,200 nm'; i.dispatchEvent(new Event('change'))")
+        until(browser, "/thousands/.test(document.getElementById('k-texture-depth-said').textContent)", 10, "the question at a comma before three digits")
         # In a list a comma parts numbers.
         browser.run("const i = document.getElementById('k-environment-relative_humidity'); i.value = '30,50,70'; i.dispatchEvent(new Event('change'))")
         until(browser, "papilla.session().keys.find(k => k.path === 'environment.relative_humidity').value === '30 %, 50 %, 70 %'", 10, "a list of three")
@@ -286,6 +290,15 @@ def searched(browser):
         browser.run(f"parts.showSearch({{...search, state: 'running', folder: 'searches/002', confirmed: [], recommended: null, progress: {{share: {share}, seconds_left: 9}}}})")
         shares.append(browser.run(bar))
     check(shares == ["48", "48", "60"], f"the bar of a search: {shares}")
+    # A stop that is refused as no design was judged yet: said until one was.
+    browser.run("""
+        window.sent = window.fetch;
+        window.fetch = (url, what) => url === 'search/stop' ? Promise.resolve(new Response('{"error": "no design was judged yet"}')) : window.sent(url, what);
+        parts.showSearch({...search, state: 'running', folder: 'searches/002', done: 0, points: [], confirmed: [], recommended: null});
+        document.getElementById('stop').click();""")
+    until(browser, "document.getElementById('wishnotice').textContent === 'no design was judged yet'", 10, "the refusal of a stop")
+    browser.run("window.fetch = window.sent; parts.showSearch({...search, state: 'running', folder: 'searches/002', done: 12, confirmed: [], recommended: null})")
+    check(browser.run("return document.getElementById('wishnotice').hidden"), "the refusal of a stop stays after designs were judged")
     browser.run("parts.showSearch({...search, state: 'failed', folder: 'searches/003', trouble: 'error: no texture keeps it', done: 0, points: [], confirmed: [], recommended: null})")
     failed = browser.run("return [...['fronthint', 'stage', 'recommendation'].map(id => document.getElementById(id).textContent), document.getElementById('report').hidden]")
     check(failed == ["", "error: no texture keeps it", "", True], f"a search that failed: {failed}")
@@ -301,6 +314,16 @@ def modules(browser, folder):
         # The margin that limits, beside that of the solved field.
         margins = browser.run("return [[3.2, 2.5], [1.18, 0.909], [0.9, 0.95], [2, null], [null, null]].map(([oxide_margin, bridged_margin]) => parts.breakdownMargin([{oxide_margin, bridged_margin}]))")
         check(margins == ["2.5; by the solved field 3.2", "0.909: the film is at risk; by the solved field 1.18", "0.9: the film breaks down", "2", None], f"breakdown margins: {margins}")
+        same = browser.run("return parts.breakdownMargin([{oxide_margin: 72.0001, bridged_margin: 72}])")
+        check(same == "72", f"two margins that read the same: {same}")
+        # What evaluate says of the numbers stands below them, and warnings are seen.
+        said = browser.run("parts.showCaveats(['air beyond its breakdown field on up to 30 %', 'warning: the smallest feature is 0.3 pixels wide']); return [...document.querySelectorAll('#caveats li')].map(li => [li.textContent, li.className]).concat([document.getElementById('caveats').hidden])")
+        check(said == [["air beyond its breakdown field on up to 30 %", ""], ["warning: the smallest feature is 0.3 pixels wide", "over"], False], f"caveats: {said}")
+        # A difference is told apart by both parts of its error; without the part of the model nothing is judged.
+        words = browser.run("""
+            const told = (difference, error, model, own) => { const s = parts.sentence({metric: 'mean(modulation)', difference, error, model}, {mean_modulation: {value: 0.5, model: own}}); return s && [s.textContent, s.className]; };
+            return [told(0.03, 0.01, 0.004, 0.1), told(0.03, 0.01, 0.02, 0.1), told(0.03, 0.01, null, 0.1), told(-0.03, 0.01, null, null), told(1e-12, 1e-17, null, null)];""")
+        check(words == [["modulation better by 0.0300 ± 0.0100 numerical ± 0.0040 model", "better"], None, ["modulation better by 0.030 ± 0.010 numerical, model part not known", ""], ["modulation worse by 0.030 ± 0.010 numerical", "worse"], None], f"differences: {words}")
         # A section goes through the middle of a hole, of a particle, and across what is flat elsewhere.
         rows = browser.run("""
             const map = (height) => ({nx: 16, ny: 16, lx: 1, ly: 1, low: -1, high: 1, values: Float64Array.from({length: 256}, (_, i) => height(i % 16, i >> 4))});
@@ -319,9 +342,19 @@ def modules(browser, folder):
             return [...document.querySelectorAll('#dimensions li > span')].map((s) => s.textContent);""")
         check(names == [f"parts {part} {key}" for part in range(1, 5) for key in ("period", "depth")], f"parts of a stack: {names}")
         look = browser.run("""
-            parts.showLook({haze: 0, transmittance: 0.9, total_transmittance: 0.9, gloss: 90, distinctness: 1, sparkle: 0, colour_shift: 6.2e-17, min_hole: 1e-6, min_wall: 1.1e-6, aspect_ratio: 0, of_parts: true});
-            return [...document.querySelectorAll('#look li')].map((li) => [...li.childNodes].filter((n) => !n.matches || !n.matches('.what')).map((n) => n.firstChild ? n.firstChild.textContent : n.textContent).join(': '));""")
+            window.look = {haze: 0, transmittance: 0.9, total_transmittance: 0.9, gloss: 90, distinctness: 1, sparkle: 0, colour_shift: 6.2e-17, revision: papilla.session().revision};
+            parts.showLook(look);
+            parts.showMargins({min_hole: 1e-6, min_wall: 1.1e-6, aspect_ratio: 0, of_parts: true});
+            return [...document.querySelectorAll('#look li, #making li')].map((li) => [...li.childNodes].filter((n) => !n.matches || !n.matches('.what')).map((n) => n.firstChild ? n.firstChild.textContent : n.textContent).join(': '));""")
         check({"colour shift: 0", "smallest hole of a part: 1 µm", "smallest wall of a part: 1.1 µm"} <= set(look), f"the look of a stack: {look}")
+        # The look of a design before this one is faint until its own is there.
+        faint = browser.run("""
+            const now = () => document.getElementById('look').classList.contains('stale'), session = papilla.session(), own = now();
+            parts.showDimensions({...session, revision: session.revision + 1});
+            const moved = now();
+            parts.showLook({...look, revision: session.revision + 1});
+            return [own, moved, now()];""")
+        check(faint == [False, True, False], f"the look of another design: {faint}")
         searched(browser)
         # The lab in the words of lab.md, and what came of a file that was told.
         browser.run("parts.showLab({folder: 'searches/001', doing: '', trouble: '', said: 'a.csv: 1 reading told\\n\\nBefore: no reading\\n\\nb.csv: 1 row not measured yet, left planned\\n\\n# Where the lab stands\\n\\nfront/01 is the best', lab: {summary: 'front/01 is the best with probability over 99 %', plans: [], told: [], decisions: [], standing: {designs: []}}})")

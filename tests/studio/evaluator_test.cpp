@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "config/describe.h"
+#include "estimate/difference.h"
 #include "estimate/evaluation.h"
 #include "forward/forward.h"
 #include "geometry/io/files.h"
@@ -182,6 +183,10 @@ TEST(Evaluator, RefinesWhatIsAtHandAndThenWhatIsPinned) {
                                         error_samples(e.summary, e.metric, theirs));
     ASSERT_EQ(c.error.has_value(), error.has_value());
     EXPECT_NEAR(c.error.value_or(0), error.value_or(0), 1e-12) << c.metric;
+    // What belief leaves of the difference stands beside it, in no part of that.
+    const auto model = difference_of(e, theirs, ours).model;
+    ASSERT_TRUE(model && c.model) << c.metric;
+    EXPECT_EQ(*c.model, model->deviation) << c.metric;
   }
 }
 
@@ -276,6 +281,7 @@ TEST(Evaluator, CarriesAnAnswerByTheDesignThatWasRefinedLast) {
       summarise(Summary::Mean, kModulation, expected)->value -
           summarise(Summary::Mean, kModulation, first_answer(theirs, pinned, &anchor))->value,
       1e-12);
+  EXPECT_FALSE(mean.model);  // a first answer runs no members
   EXPECT_GE(*mean.error, difference_drift(theirs, quick) *
                              std::abs(expected.points[0].modulation.value) * (1 - 1e-12));
 }

@@ -24,6 +24,7 @@ FormKey key_of(Type type, const std::string& unit) {
   FormKey out;
   out.path = "a.key", out.type = type, out.unit = unit;
   out.choices = {"one", "two"};
+  if (type == Type::Integer) out.low = -1e9, out.high = 1e9;
   return out;
 }
 
@@ -35,6 +36,14 @@ std::string written(const FormKey& key, const std::string& text) {
     return change.text;
   } catch (const InputError&) {
     return "refused";
+  }
+}
+// Why it is none.
+std::string refusal_of(const FormKey& key, const std::string& text) {
+  try {
+    return "taken as " + checked_change({key}, "a.key", text).text;
+  } catch (const InputError& error) {
+    return error.problems().front().message;
   }
 }
 
@@ -69,9 +78,33 @@ TEST(FormValues, AreOfTheirTypeAndInTheirUnit) {
   EXPECT_EQ(written(key_of(Type::Path, ""), "scan.gsf"), "refused");
 }
 
+// A bare number is in the unit of its key unless it may be meant otherwise: then as a file asks.
+TEST(FormValues, WithoutAUnitAreAskedForItWhereTheyMayBeMeantInAnother) {
+  const FormKey share = key_of(Type::Numbers, "%"), length = key_of(Type::Number, "nm");
+  EXPECT_EQ(refusal_of(share, "0.15"),
+            "needs a unit: \"15 %\" if 0.15 is a share of 1, \"0.15 %\" if it is in percent");
+  EXPECT_EQ(refusal_of(length, "6e-7"),
+            "needs a unit: \"600 nm\" if 6e-7 is in m, \"6e-7 nm\" if it is in nm");
+  EXPECT_EQ(written(share, "15, 0"), "[\"15 %\", \"0 %\"]");
+  EXPECT_EQ(written(length, "0.5"), "0.5 nm");
+  EXPECT_EQ(refusal_of(length, "1,200 nm"),
+            "\"1,200 nm\" may be of a decimal comma or of thousands; write a point (1.2) or the "
+            "digits alone (1200)");
+  EXPECT_EQ(refusal_of(length, "thin, thick"), "expected a number in nm");
+}
+
+TEST(FormValues, OfWholeNumbersSayWhatIsWrongWithThem) {
+  FormKey seed = key_of(Type::Integer, "");
+  seed.low = 0, seed.high = 1000;
+  EXPECT_EQ(refusal_of(seed, ""), "expected a whole number");
+  EXPECT_EQ(refusal_of(seed, "500 %"), "expected a whole number");
+  EXPECT_EQ(refusal_of(seed, "1e10"), "1e10 is outside 0 to 1000");
+  EXPECT_EQ(refusal_of(seed, "-1"), "-1 is outside 0 to 1000");
+}
+
 TEST(FormValues, OfListsAreAtMostSixtyFour) {
   const FormKey shares = key_of(Type::Numbers, "%"), plain = key_of(Type::Numbers, "");
-  EXPECT_EQ(written(shares, "15, 0.35,55 %"), "[\"15 %\", \"0.35 %\", \"55 %\"]");
+  EXPECT_EQ(written(shares, "15, 0.35 %,55 %"), "[\"15 %\", \"0.35 %\", \"55 %\"]");
   EXPECT_EQ(written(plain, "1, 2"), "[1, 2]");
   EXPECT_EQ(written(plain, ""), "[]");
   EXPECT_EQ(written(plain, "1, x"), "refused");

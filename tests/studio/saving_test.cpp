@@ -348,6 +348,28 @@ TEST_F(Saving, AnExportIsShownBeforeItIsMade) {
   EXPECT_TRUE(mask);
 }
 
+TEST_F(Saving, AnExportTakesNoFolderThatHoldsSomethingOrIsOfASearch) {
+  const Study study = read_study(shipped_);
+  fs::create_directories(place_.path() / "mine/made");
+  write_bytes(place_.path() / "mine/made/mask.tif", "kept");
+  write_bytes(place_.path() / "file", "kept");
+  const auto refusal = [&](const char* name, bool overwrite) {
+    try {
+      files_.export_files(study, name, overwrite);
+      return std::string("made");
+    } catch (const InputError& error) {
+      return error.problems().front().message;
+    }
+  };
+  for (const char* name : {"mine/made", "file"})
+    EXPECT_EQ(refusal(name, false),
+              "is there already: overwrite its files, or choose another name");
+  for (const char* name : {"searches", "searches/001", "searches/new"})
+    EXPECT_EQ(refusal(name, true), "is a folder of searches; choose another name, as export/mine");
+  EXPECT_EQ(read_bytes(place_.path() / "mine/made/mask.tif"), "kept");
+  EXPECT_FALSE(fs::exists(place_.path() / "searches"));
+}
+
 TEST_F(Saving, AScanIsKeptWithItsNameAndLength) {
   for (const char* name : {"a.npy", "a.gsf", "a.exr", "a.tif", "a.x3p", "a.gwy", "A.SUR", "a.sdf"})
     EXPECT_EQ(files_.keep_scan(name, "12345"),

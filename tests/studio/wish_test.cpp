@@ -718,7 +718,7 @@ TEST(SearchDesk, FindsASearchThatWasRefusedFailed) {
   };
   const std::string log = "expected: 3 min\nerror: constraints: no texture keeps it\n";
   EXPECT_EQ(left_with(log)["state"], "failed");
-  EXPECT_EQ(left_with(log)["trouble"], log);
+  EXPECT_EQ(left_with(log)["trouble"], "error: constraints: no texture keeps it\n");
   EXPECT_EQ(left_with("expected error: 3 %\n")["state"], "paused");  // it had not begun
   write_bytes(folder / "journal", "");
   EXPECT_EQ(left_with(log)["state"], "paused");  // what it found can be gone on with
@@ -781,6 +781,9 @@ TEST(SearchDesk, APausedSearchWasAskedToEndAndGoesOnFromItsJournal) {
     EXPECT_TRUE(seen());
   };
   wait_for_words(1);
+  EXPECT_THROW(desk.stop(), InputError);  // nothing was judged: it goes on
+  EXPECT_EQ(desk.json()["state"], "running");
+  EXPECT_FALSE(std::filesystem::exists(folder / "heard"));
   EXPECT_THROW(desk.resume(), InputError);
   EXPECT_THROW(desk.start({kHoles, {}}, read_study(kHoles), depth_wish(), false), InputError);
   desk.pause();

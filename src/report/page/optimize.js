@@ -70,7 +70,8 @@ function showPareto() {
   const chosen = front.filter((r) => r.design === shown());
   const sets = [
     { label: 'shown on this page', data: chosen.map((r) => point(r)), pointRadius: 12, pointHoverRadius: 12, borderWidth: 2.5, backgroundColor: 'transparent', borderColor: colours[1] },
-    { label: 'front, confirmed', data: front.map((r) => point(r, true)), bars: true, showLine: true, borderWidth: 1.5, pointRadius: 6, pointHoverRadius: 8, borderColor: colours[0], backgroundColor: colours[0] },
+    // No line: by belief a design stays on the front that another beats by the numbers alone.
+    { label: 'front, confirmed', data: front.map((r) => point(r, true)), bars: true, borderWidth: 1.5, pointRadius: 6, pointHoverRadius: 8, borderColor: colours[0], backgroundColor: colours[0] },
     { label: 'confirmed, dominated', data: dominated.map((r) => point(r, true)), pointRadius: 3.5, pointStyle: 'rect', borderColor: faint.dominated, backgroundColor: faint.dominated },
     { label: 'searched (cheaper level, biased)', hidden: front.length + dominated.length > 0, data: history.filter((r) => r.status === 'ok' && number(r)).map((r) => point(r)), pointRadius: 3, borderColor: faint.searched, backgroundColor: faint.searched },
   ];

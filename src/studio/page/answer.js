@@ -2,7 +2,7 @@
 import { $, colours } from '../plots/look.js';
 import { charts, draw } from '../plots/charts.js';
 import { curve, overHumidity } from '../plots/curves.js';
-import { fixed, round } from '../plots/numbers.js';
+import { fixed, level, round } from '../plots/numbers.js';
 import { refreshTable, table } from '../plots/tables.js';
 import { ask } from './server.js';
 
@@ -33,6 +33,7 @@ export function showAnswer(answer) {
   $('level').textContent = `${levelOf(answer)} · ${answer.seconds < 10 ? Math.round(1000 * answer.seconds) + ' ms' : round(answer.seconds) + ' s'}`;
   $('level').title = { first: 'Refined while nothing moves; the band says what that may change.', design: 'At the accuracy that the design states (Accuracy, below All keys): the numbers of papilla evaluate.' }[answer.step] || '';
   showNumbers(r);
+  showCaveats(answer.caveats);
   showValues(r.points);
   showPins();
   showModel(r.plan);
@@ -47,7 +48,8 @@ function levelOf({ step, response }) {
 // Two parts with their names where belief has been run, else the numerical one alone. named: without, where a table's head names them.
 const of = (q, scale = 1, unit = '', named = true) => {
   if (!q) return '–';
-  const error = (v) => unit ? round(scale * v, 2) : v.toFixed(3);
+  // What is rounding beside the value is no error: a film scatters nothing.
+  const error = (v) => unit ? round(scale * level(v, Math.abs(q.value)), 2) : v.toFixed(3);
   const parts = q.model === null || q.model === undefined ? error(q.se) : named ? `${error(q.numerical)} numerical ± ${error(q.model)} model` : `${error(q.numerical)} ± ${error(q.model)}`;
   return `${unit ? round(scale * q.value, 4) : fixed(q.value)} ± ${parts}${unit}`;
 };
@@ -60,7 +62,7 @@ export function breakdownMargin(points) {
   const solved = least('oxide_margin'), bridged = least('bridged_margin'), margin = Math.min(solved, bridged);
   if (!isFinite(margin)) return null;
   const risk = solved < 1 ? ': the film breaks down' : margin < 1 ? ': the film is at risk' : '';
-  return round(margin, 3) + risk + (margin < solved && isFinite(solved) ? `; by the solved field ${round(solved, 3)}` : '');
+  return round(margin, 3) + risk + (isFinite(solved) && round(solved, 3) !== round(margin, 3) ? `; by the solved field ${round(solved, 3)}` : '');
 }
 function showNumbers(r) {
   const s = r.summary, rows = [];
@@ -74,6 +76,15 @@ function showNumbers(r) {
   refreshTable($('numbers'), null, rows, [1]);
 }
 
+// What limits trust in these numbers, in the lines of papilla evaluate.
+export function showCaveats(lines) {
+  const list = $('caveats'), now = lines.join('\n');
+  if (list.dataset.lines === now) return;
+  list.dataset.lines = now;
+  list.hidden = !lines.length;
+  list.replaceChildren(...lines.map((line) => Object.assign(document.createElement('li'), { textContent: line, className: line.startsWith('warning:') ? 'over' : '' })));
+}
+
 // The curves for those who hear the page, or copy numbers.
 function showValues(points) {
   const driven = points.some((p) => p.modulation);
@@ -81,18 +92,21 @@ function showValues(points) {
 }
 
 const pins = () => state.session ? state.session.pins : [];
-const words = { 'mean(modulation)': ['modulation', 1, ''], 'worst(modulation)': ['worst', 1, ''], 'variation(modulation)': ['variation', -1, ''], 'mean(friction)': ['friction', 0, ' mN'] };
-// "better by .03 ± .01": the difference has an error of its own, both met the same skins.
-function sentence(c) {
-  const [name, better, unit] = words[c.metric], scale = unit ? 1e3 : 1, d = scale * c.difference, e = c.error === null ? null : scale * c.error;
-  const places = e > 0 ? Math.min(6, Math.max(3, 1 - Math.floor(Math.log10(e)))) : 3;  // two digits of the error
-  const text = (v) => unit ? round(Math.abs(v), 3) : Math.abs(v).toFixed(places);
-  const sure = e !== null && Math.abs(d) > 2 * e;
-  if (!sure) return null;
+const words = { 'mean(modulation)': ['modulation', 1, '', 'mean_modulation'], 'worst(modulation)': ['worst', 1, '', 'worst'], 'variation(modulation)': ['variation', -1, '', 'variation'], 'mean(friction)': ['friction', 0, ' mN', 'mean_friction'] };
+// "better by .030 ± .010 numerical ± .004 model": both parts are of the difference, as both designs met the same skins and members; null:
+// not told apart. summary: of the design at hand; where its numbers have a model part and the difference has none yet, nothing is judged by its colour.
+export function sentence(c, summary) {
+  const [name, better, unit, key] = words[c.metric], scale = unit ? 1e3 : 1, own = summary[key] || {}, size = scale * Math.abs(own.value || 0);
+  const [d, e, m] = [c.difference, c.error, c.model].map((v) => v === null || v === undefined ? null : level(scale * v, size));
+  const total = Math.hypot(e, m);
+  if (e === null || Math.abs(d) <= 2 * total) return null;
+  const least = Math.min(...[e, m].filter((v) => v > 0)), places = isFinite(least) ? Math.min(6, Math.max(3, 1 - Math.floor(Math.log10(least)))) : 3;  // two digits of the least part
+  const text = (v, digits) => unit ? round(Math.abs(v), digits) : Math.abs(v).toFixed(places);
   const word = better === 0 ? (d > 0 ? 'higher by' : 'lower by') : d * better > 0 ? 'better by' : 'worse by';
+  const open = m === null && own.model !== null && own.model !== undefined;
   const span = document.createElement('span');
-  span.textContent = `${name} ${word} ${text(d)}${e === null ? '' : ' ± ' + (unit ? round(e, 2) : e.toFixed(places))}${unit}`;
-  if (better) span.className = d * better > 0 ? 'better' : 'worse';
+  span.textContent = `${name} ${word} ${text(d, 3)} ± ${text(e, 2)}${unit} numerical${m === null ? '' : ` ± ${text(m, 2)}${unit} model`}${open ? ', model part not known' : ''}`;
+  if (better && !open) span.className = d * better > 0 ? 'better' : 'worse';
   return span;
 }
 // This design and the pinned ones side by side.
@@ -134,7 +148,7 @@ function showPins() {
     });
     top.append(swatch, name, tools);
     const found = state.answer ? state.answer.comparisons.filter((c) => c.pin === pin.number && words[c.metric]) : [];
-    const told = found.map(sentence).filter(Boolean), open = found.filter((c) => !sentence(c)).map((c) => words[c.metric][0]);
+    const said = found.map((c) => sentence(c, state.answer.response.summary)), told = said.filter(Boolean), open = found.filter((c, k) => !said[k]).map((c) => words[c.metric][0]);
     if (!pin.readable) line.textContent = 'its file cannot be read any more';
     else if (!found.length) line.textContent = 'compared as soon as both are known at one level';
     else line.append('this design: ');

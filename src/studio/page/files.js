@@ -73,13 +73,13 @@ export function saveDialog(session) {
 export async function exportDialog(session) {
   const preview = await post('export/preview').catch((e) => { notice(e.message); return null; });
   if (!preview) return;
-  const margins = make('table'), formats = make('table'), name = make('input', { type: 'text', value: `export/${session.file.replace(/\.toml$/, '').split('/').pop()}`, autocomplete: 'off' });
+  const margins = make('table'), formats = make('table'), name = make('input', { type: 'text', value: `export/${session.file.replace(/\.toml$/, '').split('/').pop()}`, autocomplete: 'off' }), [over, overLabel] = check('overwrite files of that folder');
   const ratio = preview.aspect_ratio;
   table(margins, ['Margin', 'Design', 'Limit'], preview.margins.map((m) => [m.name, m.value === null ? 'none' : micrometres(m.value), m.limit === null ? '–' : micrometres(m.limit)]).concat([['aspect ratio', round(ratio.value, 3), ratio.limit === null ? '–' : round(ratio.limit, 3)]]), [1, 2]);
   table(formats, ['File', 'Holds'], preview.formats.map((f) => [f.file, f.holds]));
-  dialog('Export masks and heights', [margins, field('Folder', name), make('details', {}, make('summary', { textContent: `${preview.formats.length} files` }), formats)],
+  dialog('Export masks and heights', [margins, field('Folder', name), overLabel, make('details', {}, make('summary', { textContent: `${preview.formats.length} files` }), formats)],
     [['Export and verify', async (said) => {
-      const done = await post('export', { name: name.value });
+      const done = await post('export', { name: name.value, overwrite: over.checked });
       const verdict = make('p', { className: 'verdict ' + (done.sound ? 'better' : 'worse'), textContent: done.sound ? `Sound: every file of ${done.folder} agrees with the design.` : 'Not sound: read what follows.' });
       $('dialogbody').querySelectorAll('.verdict, pre').forEach((e) => e.remove());
       said.before(verdict, make('pre', { textContent: done.words }));

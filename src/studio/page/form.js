@@ -11,8 +11,8 @@ export const called = (path) => path.split('.').slice(1).map((p) => /^\d+$/.test
 // As people write it: their letters, and no more than five digits of what a search found.
 export const people = (text) => text.replace(/\d+\.\d{3,}/g, (n) => round(+n, 5)).replace(/(-?\d[\d.e+-]*) rad\b/g, (all, n) => `${round(180 / Math.PI * n, 5)} deg`).replace(/\bum\b/g, 'µm').replace(/\bdeg\b/g, '°').replace(/um(\d)/g, 'µm$1');
 const plain = (text) => text.replace(/µm|μm/g, 'um').replace(/°/g, 'deg').trim();
-// A comma between digits of a single number is a decimal one; in a list it parts two.
-export const machine = (text) => plain(text).replace(/^(-?\d+),(\d+)(?=\s*[a-zA-Z%]*$)/, '$1.$2');
+// A comma between digits of a single number is a decimal one; in a list it parts two. "1,200" may be of thousands: the server asks.
+export const machine = (text) => plain(text).replace(/^(?!-?[1-9]\d{0,2},\d{3}(?!\d))(-?\d+),(\d+)(?=\s*[a-zA-Z%]*$)/, '$1.$2');
 
 const rows = {};
 // Gestures are numbered on after a reload: one number is one step of undo. atHand: revision of the session that is shown.

@@ -9,7 +9,7 @@ import { called, people, unanswered } from './form.js';
 import { post } from './server.js';
 import { takeableMap } from './take.js';
 
-const state = { revision: 0, shown: { revision: -1, humidity: '' }, timer: 0, busy: false };
+const state = { revision: 0, look: 0, shown: { revision: -1, humidity: '' }, timer: 0, busy: false };
 
 export function startScene() {
   startSolid();
@@ -37,6 +37,7 @@ function drawShape() {
   waiting.shape = null;
   showSolid(map);
   drawMap($('top'), map, 'nm', 1e9, row);
+  showMargins(shape.margins);
   const config = alongLine(line, map.lx * 1e6, shape.measures);
   if (charts.section) {
     Object.assign(charts.section, { data: config.data, options: config.options });
@@ -72,6 +73,7 @@ export function showDimensions(session) {
     if (humidities.length > 1) select.selectedIndex = Math.floor(humidities.length / 2);
   }
   state.revision = session.revision;
+  markLook();
   fetchWhenStill();
 }
 
@@ -108,9 +110,12 @@ async function fetchMaps() {
   else $('maps').classList.remove('stale');
 }
 
+// The look is worked out while nothing moves: until then it is of an earlier design.
+const markLook = () => $('look').classList.toggle('stale', state.look < state.revision);
 export function showLook(look) {
-  // Margins of a stack are of each part alone.
-  const share = (v) => v === null ? '–' : round(100 * v, 3) + ' %', whose = look.of_parts ? ' of a part' : '';
+  const share = (v) => v === null ? '–' : round(100 * v, 3) + ' %';
+  state.look = look.revision;
+  markLook();
   facts($('look'), [
     ['haze', share(look.haze)],
     ['transmittance', share(look.transmittance) + ', ' + share(look.total_transmittance) + ' in all'],
@@ -118,9 +123,15 @@ export function showLook(look) {
     ['distinctness of image', share(look.distinctness)],
     look.sparkle ? ['sparkle', share(look.sparkle)] : null,
     look.colour_shift === null ? null : ['colour shift', round(level(look.colour_shift, 1), 2)],
-    look.min_hole === null ? null : [`smallest hole${whose}`, micrometres(look.min_hole)],
-    look.min_wall === null ? null : [`smallest wall${whose}`, micrometres(look.min_wall)],
-    look.aspect_ratio ? [`aspect ratio${whose}`, round(look.aspect_ratio, 3)] : null,
     look.warning ? ['', look.warning, true] : null,
+  ]);
+}
+// What has to be made of the shape; of a stack each part alone.
+export function showMargins(margins) {
+  const whose = margins.of_parts ? ' of a part' : '';
+  facts($('making'), [
+    margins.min_hole === null ? null : [`smallest hole${whose}`, micrometres(margins.min_hole)],
+    margins.min_wall === null ? null : [`smallest wall${whose}`, micrometres(margins.min_wall)],
+    margins.aspect_ratio ? [`aspect ratio${whose}`, round(margins.aspect_ratio, 3)] : null,
   ]);
 }

@@ -9,7 +9,7 @@ import { called, machine, people } from './form.js';
 import { ask, post } from './server.js';
 import { question } from './words.js';
 
-const state = { wish: null, search: null, bar: { folder: '', share: 0 } };
+const state = { wish: null, search: null, refused: '', bar: { folder: '', share: 0 } };
 const make = (tag, more = {}) => Object.assign(document.createElement(tag), more);
 const summaries = ['mean', 'worst', 'variation', 'range', 'std', 'best', 'first', 'last'];
 
@@ -55,8 +55,9 @@ function boxes(id, names, chosen) {
   }));
 }
 const checked = (id) => [...$(id).querySelectorAll('input:checked')].map((box) => box.value);
-// What the server says of the wish stands below it.
-function said(text) {
+// What the server says of the wish stands below it. refused: where the search stood that it is said of; that is taken back once the search has moved on.
+function said(text, refused = '') {
+  state.refused = refused;
   $('wishnotice').textContent = text;
   $('wishnotice').hidden = !text;
 }
@@ -152,12 +153,14 @@ export function startSearch() {
   $('stop').addEventListener('click', () => run('search/stop'));
   $('searches').addEventListener('change', () => run('search/show', { number: +$('searches').value }));
 }
+// Where a search stands: what is refused because of it, as a stop before a design was judged, is of this alone.
+const standing = (search) => `${search.folder} ${search.state} ${search.done}`;
 async function run(path, body) {
   try {
     showSearch(await post(path, body));
     said('');
   } catch (error) {
-    said((error.problems || []).map((p) => (p.key ? `${called(p.key) || p.key}: ` : '') + people(p.message)).join('; ') || error.message);
+    said((error.problems || []).map((p) => (p.key ? `${called(p.key) || p.key}: ` : '') + people(p.message)).join('; ') || error.message, body ? '' : standing(state.search));
   }
 }
 const open = (point) => ask('search/pick', point.front ? { front: point.front } : { evaluation: point.evaluation });
@@ -168,6 +171,7 @@ const stages = { search: 'looks for designs', narrow: 'judges the best again', c
 const time = (seconds) => seconds < 100 ? `${Math.ceil(seconds)} s` : `${Math.ceil(seconds / 60)} min`;
 export function showSearch(search) {
   state.search = search;
+  if (state.refused && state.refused !== standing(search)) said('');
   const running = search.state === 'running';
   $('searchstate').textContent = words[search.state];
   $('searchstate').classList.toggle('live', running);

@@ -1,7 +1,7 @@
 // The studio: what the server tells goes to the parts of the page, what the hand does goes back.
 import { $, onLook, setText } from '../plots/look.js';
 import { charts, dropCharts } from '../plots/charts.js';
-import { answered, drawn, latency, showForm, showKinds, showSlopes, startFilter, startSlopes } from './form.js';
+import { answered, drawn, latency, people, showForm, showKinds, showSlopes, startFilter, startSlopes } from './form.js';
 import { showAnswer, showSessionPins } from './answer.js';
 import { exportDialog, historyDialog, openDialog, saveDialog, saving, startFiles, state } from './files.js';
 import { showDimensions, showLook, showShape, startScene } from './scene.js';
@@ -23,9 +23,10 @@ function showSession(news) {
   if (news.form !== told.form) return;  // one of the form at hand follows
   const moved = new Map(news.keys.map((k) => [k.path, k])), now = { ...news, keys: told.keys.map((k) => ({ ...k, ...moved.get(k.path), form: told.form })) };
   session = now;
-  setText($('title'), now.title || 'Papilla studio');
+  const title = people(now.title);
+  setText($('title'), title || 'Papilla studio');
   setText($('file'), now.file + (now.changes.length ? ` · ${now.changes.length} changed` : ''));
-  document.title = `${now.title || now.file} · Papilla studio`;
+  document.title = `${title || now.file} · Papilla studio`;
   $('undo').disabled = !now.undo;
   $('redo').disabled = !now.redo;
   $('history').disabled = !now.steps.length;
@@ -52,7 +53,7 @@ function toolbar() {
   $('open').addEventListener('click', openDialog);
   $('save').addEventListener('click', () => saveDialog(session));
   $('export').addEventListener('click', () => exportDialog(session));
-  $('keep').addEventListener('click', () => keepPage(session.title || session.file));
+  $('keep').addEventListener('click', () => keepPage(people(session.title) || session.file));
   document.addEventListener('keydown', (e) => {
     const typing = ['INPUT', 'SELECT', 'TEXTAREA'].includes(e.target.tagName) && e.target.type !== 'range' && e.target.type !== 'checkbox';
     if ($('dialog').open) return;

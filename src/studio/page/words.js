@@ -15,10 +15,10 @@ const own = {
   'p(every limit)': 'probability that the design keeps every limit, over what is not known of finger and model',
   'smallest hole': 'width of the narrowest place that is cut away: what a process has to open',
   'smallest wall': 'width of the narrowest place that stands: what a process has to leave',
-  'aspect ratio': 'depth over the narrowest width',
+  'aspect ratio': 'depth over the narrowest hole or wall',
   'smallest hole of a part': 'of each part of the stack by itself: width of the narrowest place that it cuts away; where parts cross, narrower places may be left',
   'smallest wall of a part': 'of each part of the stack by itself: width of the narrowest place that it leaves; where parts cross, narrower places may be left',
-  'aspect ratio of a part': 'depth over the narrowest width, of each part of the stack by itself',
+  'aspect ratio of a part': 'depth over the narrowest hole or wall, of each part of the stack by itself',
 };
 let words = {};
 const meaning = (text) => own[text] || words[text.replace(/ /g, '_')] || (text.match(/^(\w+)\((\w+)\)$/) && words[RegExp.$2]);
@@ -60,11 +60,11 @@ function ask(place) {
   const text = meaning(word);
   if (text) place.append(question(() => ({ word, text })));
 }
-const places = '#numbers th, #numbers td:first-child, #look li > span:first-child, #frontlist th, #pins tbody td:first-child, #pins tbody th';
+const places = '#numbers th, #numbers td:first-child, #look li > span:first-child, #making li > span:first-child, #frontlist th, #pins tbody td:first-child, #pins tbody th';
 export function startWords(of) {
   words = of;
   const all = () => document.querySelectorAll(places).forEach(ask);
-  ['numbers', 'look', 'frontlist', 'pins'].forEach((id) => new MutationObserver(all).observe($(id), { childList: true, subtree: true }));
+  ['numbers', 'look', 'making', 'frontlist', 'pins'].forEach((id) => new MutationObserver(all).observe($(id), { childList: true, subtree: true }));
   all();
   document.addEventListener('keydown', (e) => { if (e.key === 'Escape') close(); });
   document.addEventListener('click', (e) => { if (!e.target.closest('#meaning')) close(); });
