@@ -1,7 +1,8 @@
 // The field rule against the 3-D field over kinds, slopes, processes and humidities, and what is
 // left of the difference where two skins correct four others: prints
-// results/accuracy/field_kinds.csv. Run by hand: ninja -C build/release field_kinds_bench &&
-// build/release/bench/field_kinds_bench designs [random COUNT SEED]
+// results/accuracy/field_kinds.csv. With `pixels` both fields on more and more pixels, dry to
+// nearly flooded: results/accuracy/field_pixels.csv. Run by hand: ninja -C build/release
+// field_kinds_bench && build/release/bench/field_kinds_bench designs [random COUNT SEED | pixels]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <cstdlib>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/random.h"
@@ -143,10 +145,53 @@ void print(const Case& c, const Design& design) {
   }
 }
 
+// Both fields over the same skins on 64 to 512 pixels along the patch.
+void print_pixels(const std::string& designs) {
+  constexpr int kFew = 2;
+  fmt::print(
+      "sample,finger,relative humidity [%],pixels,under water [%],pull of the rule [kPa],pull in "
+      "3-D [kPa],ratio\n");
+  for (const char* sample : {"flat", "a3h600"}) {
+    for (const auto& [state, humidities] : {std::pair("clean", std::vector{0.15, 0.55, 0.75, 0.85}),
+                                            std::pair("natural", std::vector{0.35, 0.55, 0.65})}) {
+      const Design design = read_design(fmt::format("{}/m3_samples/{}.toml", designs, sample),
+                                        {fmt::format("finger.state=\"{}\"", state)});
+      Scene scene = scene_of(design);
+      scene.model.coupling = Coupling::OnePass;  // both fields over the gap before the drive
+      for (const double humidity : humidities) {
+        for (const int pixels : {64, 128, 256, 512}) {
+          Fidelity fidelity = fidelity_level("draft");
+          fidelity.grid = fidelity.most_pixels = pixels;
+          double wet = 0, rule = 0, full = 0;
+          for (int k = 0; k < kFew; ++k) {
+            const PatchPicture p = picture_patch(scene, design.texture, fidelity, humidity, k);
+            const CoveredSurface surface(p.texture, film_of(scene));
+            const Wetting& water = p.fields.wetting_on;
+            for (const std::uint8_t pixel : water.bridged)
+              wet += (pixel != 0) / static_cast<double>(kFew * water.bridged.size());
+            rule += p.fields.pull.mean() / kFew;
+            full += solve_full_field({p.texture.grid, p.fields.off.gap}, &surface, water,
+                                     field_problem(scene, humidity))
+                        .mean_pressure /
+                    kFew;
+          }
+          fmt::print("{},{},{:.0f},{},{:.1f},{:.4g},{:.4g},{:.3f}\n", sample, state, 100 * humidity,
+                     pixels, 100 * wet, 1e-3 * rule, 1e-3 * full, full / rule);
+          std::fflush(stdout);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::string designs = argc > 1 ? argv[1] : "designs";
+  if (argc > 2 && std::string(argv[2]) == "pixels") {
+    print_pixels(designs);
+    return 0;
+  }
   const bool random = argc > 4 && std::string(argv[2]) == "random";
   const std::vector<Case> cases =
       random ? random_cases(std::atoi(argv[3]), static_cast<std::uint64_t>(std::atoi(argv[4])))

@@ -44,6 +44,7 @@ struct RunProgress {
 struct RunOptions {
   bool resume = false;  // go on with a run of the same study in the same folder
   bool finish = false;  // no more designs: those of the run that is resumed are confirmed
+  bool force = false;   // with model options that the finger was not fitted with
   std::string pick;     // which design of the front is the best, as `papilla optimize --pick`
   std::function<void(const RunProgress&)> progress;  // may be empty
   const std::atomic<bool>* stop = nullptr;           // set: ends after the running evaluation

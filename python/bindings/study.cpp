@@ -30,7 +30,7 @@ RunOptions watched(RunOptions options, Job& job) {
 }
 
 // What it found is in the folder.
-void run_study(const Study& study, const std::string& folder, bool resume, bool finish,
+void run_study(const Study& study, const std::string& folder, bool resume, bool finish, bool force,
                const std::string& pick, const py::object& progress) {
   if (!all_jobs_ended()) {
     throw InputError({{"", 0, 0, "optimize",
@@ -40,6 +40,7 @@ void run_study(const Study& study, const std::string& folder, bool resume, bool 
   RunOptions options;
   options.resume = resume;
   options.finish = finish;
+  options.force = force;
   options.pick = pick;
   run_job([study, folder, options](Job& job) { return study.run(folder, watched(options, job)); },
           progress);
@@ -76,7 +77,7 @@ void bind_study(py::module_& module) {
           },
           py::arg("values"), py::arg("threads"))
       .def("run", &run_study, py::arg("folder"), py::arg("resume"), py::arg("finish"),
-           py::arg("pick"), py::arg("progress"));
+           py::arg("force"), py::arg("pick"), py::arg("progress"));
 
   py::class_<Search>(module, "Search")
       .def(py::init<const Study&>(), py::arg("study"))

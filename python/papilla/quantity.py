@@ -108,7 +108,7 @@ class Quantity(NDArrayOperatorsMixin):
         return self.value.ndim
 
     def __array__(self, dtype: npt.DTypeLike = None, copy: bool | None = None) -> npt.NDArray[Any]:
-        return np.array(self.value, dtype=dtype)
+        return np.array(self.value, dtype=dtype, copy=copy is not False)
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
         if method != "__call__" or options or ufunc not in {*_SLOPES, *_ORDERS, *_EQUALITIES, *_QUESTIONS}:

@@ -456,20 +456,21 @@ class Study:
         return self._inside.violations()
 
     def optimize(self, out: Path, *, resume: bool = False, finish: bool = False, pick: str = "",
-                 progress: Progress = None) -> Run:
+                 force: bool = False, progress: Progress = None) -> Run:
         """Searches, confirms and checks, and writes the folder of results: ``papilla optimize``.
 
         How long and from where is the study's: ``Study.load(file, {"search.evaluations": 60, "search.time": "20 min",
         "search.seed": 2})``.
         out: the folder. resume: go on with an interrupted run there. finish: and ask for no more designs: those of
-        the run are judged and confirmed. pick: which design of the front is the best.
+        the run are judged and confirmed. pick: which design of the front is the best. force: with model options that a
+        finger of the study was not fitted with.
         progress: called with (stage, done, total, seconds left; below 0: not known). Ctrl-C ends it: what was
         evaluated is kept, and resume goes on. Works in processes of its own; no other evaluation may run meanwhile.
         Raises InputError, KeyboardInterrupt.
         """
         folder = v.path(out, "out")
-        self._inside.run(folder, v.flag(resume, "resume"), v.flag(finish, "finish"), v.text(pick, "pick"),
-                         shown(progress, "optimize"))
+        self._inside.run(folder, v.flag(resume, "resume"), v.flag(finish, "finish"), v.flag(force, "force"),
+                         v.text(pick, "pick"), shown(progress, "optimize"))
         return Run(self, folder)
 
     def _numbers(self, values: Values) -> list[float]:

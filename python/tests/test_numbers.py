@@ -100,6 +100,7 @@ def test_masked_values_are_no_numbers() -> None:
 
 def test_a_quantity_is_an_array() -> None:
     assert np.array_equal(np.asarray(A), A.value) and np.asarray(A, dtype=np.float32).dtype == np.float32
+    assert np.shares_memory(A.__array__(copy=False), A.value) and not np.shares_memory(np.asarray(A), A.value)
     assert len(A) == 3 and A.shape == (3,) and [float(item) for item in A] == [2.0, 3.0, 0.5]
     assert A[1].shape == () and A[1].error == 0.01 and A[A > 1].value.tolist() == [2.0, 3.0] and A[::-1].model[0] == 0.3
     assert (A > B).tolist() == [True, True, False] and bool(A[0] == 2.0)

@@ -140,6 +140,12 @@ def test_only_a_run_that_is_resumed_can_be_finished(tmp_path: pathlib.Path) -> N
     assert not (tmp_path / "new").exists()
 
 
+def test_a_model_that_the_finger_was_not_fitted_with_is_refused(tmp_path: pathlib.Path) -> None:
+    with pytest.raises(pp.InputError, match="was fitted with(.|\n)*set `force`"):
+        pp.Study({**STUDY, "model": {"rim_pinning": True}}).optimize(tmp_path / "new")
+    assert not (tmp_path / "new").exists()
+
+
 @pytest.mark.slow
 def test_a_run_that_is_finished_asks_for_no_more_designs(tmp_path: pathlib.Path) -> None:
     study = pp.Study({**STUDY, "search": {"evaluations": 2000, "seed": 3}})

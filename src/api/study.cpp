@@ -175,6 +175,7 @@ RunResult Study::run(const std::string& folder, const RunOptions& options) const
       };
     }
     const StudyProblem& problem = *inside_->problem;
+    if (!options.force) require_fitted_fingers(problem, "", "set `force`");
     const OptimiseResult result = optimise_to_folder(inside_->study, inside);
     RunResult out;
     out.interrupted = result.interrupted;

@@ -95,9 +95,8 @@ class Fit {
     note(fmt::format("{} residuals, {} parameters; the first evaluation tells the price",
                      rows.size(), parameters_.size()));
     residuals_.correct(calibration_, values);
-    const std::vector<Estimate> before = residuals_.model(calibration_, values);
+    const std::vector<Estimate> before = residuals_.weigh(calibration_, values);
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i].before = before[i].value;
-    residuals_.weigh(calibration_, values);
     state_price();
     follow(values);
     std::vector<double> r(rows.size());

@@ -133,6 +133,12 @@ void Residuals::add_rows(const FrictionDatum& d) {
 }
 
 std::vector<Estimate> Residuals::model(const Calibration& from, std::span<const double> values) {
+  return model(from, values,
+               frictions(with_parameters(from, values), calibration_.sampling, false));
+}
+
+std::vector<Estimate> Residuals::model(const Calibration& from, std::span<const double> values,
+                                       const std::vector<Friction>& friction) {
   const Finger finger = with_parameters(from, values);
   std::vector<Estimate> out =
       kept_.get("targets " + as_text(calibration_.sampling) + write_toml(to_table(finger)),
@@ -145,12 +151,11 @@ std::vector<Estimate> Residuals::model(const Calibration& from, std::span<const 
                     answers.push_back(t.model(finger_model));
                   return answers;
                 });
-  const std::vector<Friction> friction = frictions(finger, calibration_.sampling, false);
   const std::vector<Factor> factor = followed(from, values);
   for (std::size_t i = 0; i < friction.size(); ++i) {
-    const auto add = [&](const Estimate& force, double log_factor) {
+    const auto add = [&](const Force& force, double log_factor) {
       const double by = 1e3 * std::exp(log_factor);
-      out.push_back({by * force.value, by * force.se});
+      out.push_back({by * force.estimate.value, by * force.estimate.se});
     };
     if (calibration_.data[i].off_sd > 0) add(friction[i].off, factor[i].off);
     if (calibration_.data[i].on_sd > 0) add(friction[i].on, factor[i].on);
@@ -164,8 +169,9 @@ std::vector<Residuals::Factor> Residuals::factors(const Finger& finger) {
   fine.grid = calibration_.check.grid;
   const std::vector<Friction> good = frictions(finger, fine, true),
                               fast = frictions(finger, calibration_.sampling, false);
-  const auto of = [](const Estimate& from, const Estimate& to) {
-    return from.value > 0 && to.value > 0 ? std::log(to.value / from.value) : 0;
+  const auto of = [](const Force& from, const Force& to) {
+    const double a = from.estimate.value, b = to.estimate.value;
+    return a > 0 && b > 0 ? std::log(b / a) : 0;
   };
   std::vector<Factor> out;
   for (std::size_t i = 0; i < good.size(); ++i)
@@ -220,8 +226,9 @@ double Residuals::correct(const Calibration& from, std::span<const double> value
   double largest = 0;
   for (std::size_t i = 0; i < fast.size(); ++i) {
     const FrictionDatum& d = calibration_.data[i];
-    const auto look = [&](double old, double now, const Estimate& force, double sd) {
-      largest = std::max(largest, std::abs(std::exp(now) - std::exp(old)) * force.value / sd);
+    const auto look = [&](double old, double now, const Force& force, double sd) {
+      largest =
+          std::max(largest, std::abs(std::exp(now) - std::exp(old)) * force.estimate.value / sd);
     };
     if (d.off_sd > 0) look(before[i].off, factors_[i].off, fast[i].off, d.off_sd);
     if (d.on_sd > 0) look(before[i].on, factors_[i].on, fast[i].on, d.on_sd);
@@ -281,31 +288,36 @@ std::vector<double> Residuals::misses(std::vector<double> residuals) const {
 }
 
 // Eq. calibration.12
-void Residuals::weigh(const Calibration& from, std::span<const double> values) {
-  const std::vector<Estimate> here = model(from, values);
+std::vector<Estimate> Residuals::weigh(const Calibration& from, std::span<const double> values) {
+  const std::vector<Friction> friction =
+      frictions(with_parameters(from, values), calibration_.sampling, false);
+  std::vector<Estimate> here = model(from, values, friction);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     rows_[i].sampling_sd = here[i].se;
     rows_[i].common.clear();
   }
-  const std::vector<std::vector<double>> of_skins = skin_moves(with_parameters(from, values));
   std::vector<std::vector<double>> moves;  // of unit length
   std::vector<FitRow*> measured;
   std::size_t row = targets_.size();
-  for (std::size_t i = 0; i < of_skins.size(); ++i) {
-    const FrictionDatum& datum = calibration_.data[i / 2];
-    if (!((i % 2 == 0 ? datum.off_sd : datum.on_sd) > 0)) continue;
-    FitRow& friction = rows_[row++];
+  const auto add = [&](const Force& force, double sd) {
+    if (!(sd > 0)) return;
+    FitRow& of = rows_[row++];
     double length = 0;
-    for (const double move : of_skins[i]) length = std::hypot(length, move);
-    if (!(length > 0)) continue;  // of one skin, or what no skin changes
-    measured.push_back(&friction);
-    moves.push_back(of_skins[i]);
+    for (const double move : force.moves) length = std::hypot(length, move);
+    if (!(length > 0)) return;  // of one skin, or what no skin changes
+    measured.push_back(&of);
+    moves.push_back(force.moves);
     for (double& move : moves.back()) move /= length;
+  };
+  for (std::size_t i = 0; i < friction.size(); ++i) {
+    add(friction[i].off, calibration_.data[i].off_sd);
+    add(friction[i].on, calibration_.data[i].on_sd);
   }
   const double share = std::sqrt(meant_correlation(moves));
   for (std::size_t i = 0; i < measured.size(); ++i) {
     for (const double move : moves[i]) measured[i]->common.push_back(share * move);
   }
+  return here;
 }
 
 CommonErrors Residuals::common() const {
@@ -350,79 +362,63 @@ std::vector<RowBand> Residuals::bands() const {
 std::vector<Residuals::Friction> Residuals::frictions(const Finger& finger,
                                                       const SkinSampling& sampling,
                                                       bool corrected) {
+  const auto skins = static_cast<std::size_t>(sampling.skins);
+  const std::size_t moved = skins > 1 ? skins : 0;
   const std::string question =
       fmt::format("frictions {} {} ", corrected, as_text(sampling)) + write_toml(to_table(finger));
-  const std::vector<Estimate> both = kept_.get(question, 2 * calibration_.data.size(), [&] {
-    const Stopwatch watch(corrected ? good_seconds_ : fast_seconds_);
-    std::vector<Estimate> flat;
-    for (const Friction& f : evaluated(finger, sampling, corrected)) {
-      flat.push_back(f.off);
-      flat.push_back(f.on);
-    }
-    return flat;
-  });
-  std::vector<Friction> out;
-  for (std::size_t i = 0; i + 1 < both.size(); i += 2) out.push_back({both[i], both[i + 1]});
+  // One after the other: each force, then its moves.
+  const std::vector<Estimate> flat =
+      kept_.get(question, 2 * calibration_.data.size() * (1 + moved), [&] {
+        const Stopwatch watch(corrected ? good_seconds_ : fast_seconds_);
+        std::vector<Estimate> out;
+        const auto add = [&](const Force& force) {
+          out.push_back(force.estimate);
+          for (const double move : force.moves) out.push_back({move, 0});
+        };
+        for (const Friction& f : evaluated(finger, sampling, corrected)) {
+          add(f.off);
+          add(f.on);
+        }
+        return out;
+      });
+  auto next = flat.begin();
+  const auto take = [&] {
+    Force out{*next++, {}};
+    for (std::size_t k = 0; k < moved; ++k) out.moves.push_back((next++)->value);
+    return out;
+  };
+  std::vector<Friction> out(calibration_.data.size());
+  for (Friction& f : out) {
+    f.off = take();
+    f.on = take();
+  }
   return out;
 }
 
 std::vector<Residuals::Friction> Residuals::evaluated(const Finger& finger,
                                                       const SkinSampling& sampling,
                                                       bool corrected) const {
-  std::vector<Friction> out(calibration_.data.size());
-  evaluate_groups(finger, sampling, corrected,
-                  [&](std::size_t datum, const Response& response, std::size_t humidity) {
-                    const ResponsePoint& p = response.points[humidity];
-                    out[datum] = {{p.friction_off.value, p.friction_off.parts.sampling},
-                                  {p.friction_on.value, p.friction_on.parts.sampling}};
-                  });
-  return out;
-}
-
-void Residuals::evaluate_groups(
-    const Finger& finger, const SkinSampling& sampling, bool corrected,
-    const std::function<void(std::size_t, const Response&, std::size_t)>& use) const {
   Fidelity fidelity = sampling.fidelity(threads_);
   if (corrected) fidelity.control_skins = fidelity_level(sampling.level).control_skins;
+  std::vector<Friction> out(calibration_.data.size());
   for (const MeasuredGroup& s : groups_) {
     Scene scene = scene_of(s.design);
     scene.finger = finger.touching_as(scene.finger);
     scene.model = finger.calibrated_for;
     const Response response = evaluate(scene, s.design.texture, fidelity);
-    for (std::size_t k = 0; k < s.rows.size(); ++k) use(s.rows[k], response, s.humidity_of[k]);
-  }
-}
-
-std::vector<std::vector<double>> Residuals::skin_moves(const Finger& finger) {
-  const auto skins = static_cast<std::size_t>(calibration_.sampling.skins);
-  const std::size_t count = 2 * calibration_.data.size();
-  const std::vector<Estimate> flat = kept_.get(
-      "skins " + as_text(calibration_.sampling) + write_toml(to_table(finger)), count * skins, [&] {
-        std::vector<Estimate> out(count * skins);
-        evaluate_groups(finger, calibration_.sampling, false,
-                        [&](std::size_t datum, const Response& response, std::size_t humidity) {
-                          const auto add = [&](std::size_t at,
-                                               Measured PointQuantities::*friction) {
-                            const auto of = [&](const std::vector<ResponsePoint>& points) {
-                              return (points[humidity].*friction).value;
-                            };
-                            std::vector<double> without;
-                            for (const auto& points : response.without)
-                              without.push_back(of(points));
-                            if (without.size() != skins) return;  // a single skin is never left out
-                            const std::vector<double> moves =
-                                error_moves(jackknife_samples(of(response.points), without));
-                            for (std::size_t k = 0; k < skins; ++k)
-                              out[at * skins + k].value = moves[k];
-                          };
-                          add(2 * datum, &PointQuantities::friction_off);
-                          add(2 * datum + 1, &PointQuantities::friction_on);
-                        });
-        return out;
-      });
-  std::vector<std::vector<double>> out(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t k = 0; k < skins; ++k) out[i].push_back(flat[i * skins + k].value);
+    for (std::size_t k = 0; k < s.rows.size(); ++k) {
+      const std::size_t at = s.humidity_of[k];
+      const auto force = [&](Measured PointQuantities::*of) {
+        const Measured& here = response.points[at].*of;
+        std::vector<double> without;
+        for (const auto& points : response.without) without.push_back((points[at].*of).value);
+        Force found{{here.value, here.parts.sampling}, {}};
+        if (!without.empty()) found.moves = error_moves(jackknife_samples(here.value, without));
+        return found;
+      };
+      out[s.rows[k]] = {force(&PointQuantities::friction_off),
+                        force(&PointQuantities::friction_on)};
+    }
   }
   return out;
 }

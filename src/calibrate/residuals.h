@@ -82,8 +82,8 @@ class Residuals {
   double seconds_a_factor() const { return fast_seconds_ + good_seconds_; }
 
   // What the model's skins leave open of every row at these values, and how much of it rows have in
-  // common: it stays in their weights. Eq. calibration.12
-  void weigh(const Calibration& from, std::span<const double> values);
+  // common: it stays in their weights. Eq. calibration.12. Returns the model there.
+  std::vector<Estimate> weigh(const Calibration& from, std::span<const double> values);
   CommonErrors common() const;
   // Distances from the bands in standard deviations, independent of one another: the data's and the
   // model's sampling error. false: the model has no answer. Eq. calibration.5
@@ -97,8 +97,14 @@ class Residuals {
   std::vector<RowBand> bands() const;
 
  private:
+  // [N], with the error of the skins, and what each of them moves it by; empty: a single skin is
+  // never left out.
+  struct Force {
+    Estimate estimate;
+    std::vector<double> moves;
+  };
   struct Friction {
-    Estimate off, on;  // [N], with the error of the skins
+    Force off, on;
   };
   // Logarithms of the factors of off and on.
   struct Factor {
@@ -117,12 +123,9 @@ class Residuals {
                                   bool corrected);
   std::vector<Friction> evaluated(const Finger& finger, const SkinSampling& sampling,
                                   bool corrected) const;
-  // Calls `use(datum, response, humidity)` for every datum.
-  void evaluate_groups(
-      const Finger& finger, const SkinSampling& sampling, bool corrected,
-      const std::function<void(std::size_t, const Response&, std::size_t)>& use) const;
-  // What each skin moves the frictions of each datum by [N]: off, then on. [2 datum + on][skin]
-  std::vector<std::vector<double>> skin_moves(const Finger& finger);
+  // The model at every row by the frictions at every datum.
+  std::vector<Estimate> model(const Calibration& from, std::span<const double> values,
+                              const std::vector<Friction>& friction);
 
   const Calibration& calibration_;
   int threads_;

@@ -71,12 +71,12 @@ void add_design_options(Command command, DesignOptions& options) {
   command.add_flag("--json", options.json, "One JSON object on standard output");
 }
 
-Study DesignOptions::study() const {
+Study DesignOptions::study(DesignUse use) const {
   if (!base.empty() && file.ends_with(".toml"))
     throw InputError("--base: " + file + " is no scan; a design names its base, base = \"" + base +
                      "\"");
-  Study out = base.empty() ? read_study(file, overrides)
-                           : read_study(base, scan_as_texture(file, overrides));
+  Study out = base.empty() ? read_study(file, overrides, use)
+                           : read_study(base, scan_as_texture(file, overrides), use);
   const std::string title = title_as_set(out.design, overrides);
   if (title != out.design.title) out.origins["title"] = Place{"--set", 0, 0};
   out.design.title = title;

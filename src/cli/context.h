@@ -39,7 +39,7 @@ struct DesignOptions {
   bool json = false;
 
   // As it is read; its title says what --set made of it. Throws InputError.
-  Study study() const;
+  Study study(DesignUse use = DesignUse::Simulated) const;
 };
 void add_design_options(Command command, DesignOptions& options);
 

@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -32,24 +34,47 @@ std::vector<std::string> names_of(const std::vector<Command>& commands) {
   return names;
 }
 
+// The words of a command line, `help` in the place of a command as --help behind them: "papilla
+// help solve contact" is "papilla solve contact --help".
+std::vector<const char*> with_help(Command level, int argc, char** argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const std::string word = words[i];
+    if (word.starts_with('-')) continue;
+    const std::vector<Command> commands = level.commands();
+    const auto found = std::find_if(commands.begin(), commands.end(),
+                                    [&](Command command) { return command.name() == word; });
+    if (found != commands.end()) {
+      level = *found;
+      continue;
+    }
+    if (!commands.empty() && word == "help") {
+      words.erase(words.begin() + static_cast<std::ptrdiff_t>(i));
+      words.push_back("--help");
+    }
+    break;
+  }
+  return words;
+}
+
 // A word in the place of a command that is none (papilla foo, papilla solve foo): the parser would
 // only say that it was not expected.
-bool knows_command(Command level, int argc, char** argv, const Context& context) {
-  for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+bool knows_command(Command level, const std::vector<const char*>& words, const Context& context) {
+  for (std::size_t i = 1; i < words.size() && words[i][0] != '-'; ++i) {
     const std::vector<Command> commands = level.commands();
     if (commands.empty()) return true;
     const std::vector<std::string> names = names_of(commands);
-    const auto found = std::find(names.begin(), names.end(), argv[i]);
+    const auto found = std::find(names.begin(), names.end(), words[i]);
     if (found != names.end()) {
       level = commands[static_cast<std::size_t>(found - names.begin())];
       continue;
     }
-    const std::string near = nearest_name(argv[i], names);
+    const std::string near = nearest_name(words[i], names);
     const std::string above = i > 1 ? level.name() + " " : "";
     print_error(context, near.empty() ? fmt::format("unknown command `{}{}`; known: {}", above,
-                                                    argv[i], join_names(names))
+                                                    words[i], join_names(names))
                                       : fmt::format("unknown command `{}{}`, did you mean `{}{}`?",
-                                                    above, argv[i], above, near));
+                                                    above, words[i], above, near));
     return false;
   }
   return true;
@@ -76,9 +101,10 @@ int run(int argc, char** argv) {
                              "the folder");
     return kWrongInput;
   }
-  if (!knows_command(program, argc, argv, context)) return kWrongInput;
+  const std::vector<const char*> words = with_help(program, argc, argv);
+  if (!knows_command(program, words, context)) return kWrongInput;
   try {
-    if (!line.parse(argc, argv)) return kSuccess;
+    if (!line.parse(static_cast<int>(words.size()), words.data())) return kSuccess;
   } catch (const CommandLineError& e) {
     print_error(context, e.what());
     std::cerr << "try: papilla " << e.commands() << "--help" << std::endl;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/constants.h"
+#include "forward/equilibrium.h"
 #include "forward/scene_terms.h"
 #include "physics/persson/patches.h"
 
@@ -62,9 +63,6 @@ class ForcesOverPressure {
   std::vector<double> x_;  // ln of the pressure
   std::vector<OpenGapForces> forces_, slope_;
 };
-
-// Share of the ridges in patches in contact at which their gaps are said to have closed.
-constexpr double kClosed = 0.9;
 
 struct Rest {
   double pressure = 0, stability = 1;
@@ -148,6 +146,16 @@ std::vector<OpenGapForces> forces_at(const Scene& scene, double relative_humidit
   return out;
 }
 
+// Share of the ridges in patches in contact where the rings are pressed by so much [Pa]: T of Eq.
+// coupling.10.
+double share_touching(const std::vector<NominalPressure>& rings, const std::vector<double>& pressed,
+                      double measure) {
+  double out = 0;
+  for (std::size_t i = 0; i < rings.size(); ++i)
+    out += rings[i].share * std::erf(pressed[i] / std::sqrt(measure));
+  return out;
+}
+
 // Shares of patches that carry the rings' pressures, and how much harder each presses: Persson's
 // share touches, the rest of the load presses harder on it.
 struct Carrying {
@@ -156,9 +164,7 @@ struct Carrying {
 };
 Carrying carrying(const PatchPressures& patches, const std::vector<NominalPressure>& rings,
                   const std::vector<double>& pressed, double measure) {
-  Carrying out{patches.share_at(pressed), 1, 0};
-  for (std::size_t i = 0; i < rings.size(); ++i)
-    out.touching += rings[i].share * std::erf(pressed[i] / std::sqrt(measure));
+  Carrying out{patches.share_at(pressed), 1, share_touching(rings, pressed, measure)};
   out.press = std::accumulate(out.share.begin(), out.share.end(), 0.0) / out.touching;
   for (double& share : out.share) share /= out.press;
   return out;
@@ -184,7 +190,7 @@ Balance solve_balance(const Scene& scene, double q_patch, double relative_humidi
   std::vector<NominalPressure> rings;
   for (const PressureRing& ring : rings_of(scene.model, finger.macro))
     rings.push_back({ring.over_mean * out.nominal, ring.share});
-  std::vector<double> off, on;
+  std::vector<double> loaded, off, on;
   bool lost = false;  // beyond the pressures of the table
   for (const NominalPressure& ring : rings) {
     const auto rest = [&](double (OpenGapForces::*attraction)() const) {
@@ -196,6 +202,7 @@ Balance solve_balance(const Scene& scene, double q_patch, double relative_humidi
     out.to_fold = std::min(out.to_fold, std::sqrt(under.to_fold));
     out.pull_in_undriven = out.pull_in_undriven || !before.found || before.to_fold < 1;
     out.stability = std::min({out.stability, before.stability, under.stability});
+    loaded.push_back(ring.pressure);
     off.push_back(before.pressure);
     on.push_back(under.pressure);
   }
@@ -224,8 +231,10 @@ Balance solve_balance(const Scene& scene, double q_patch, double relative_humidi
   out.shares = {patches.share(), before.share, under.share, before.press, under.press};
   out.touching_off = before.touching;
   out.touching_on = under.touching;
-  out.pull_in = out.pull_in || out.to_fold < 1 || out.touching_on > kClosed;
-  out.pull_in_undriven = out.pull_in_undriven || out.touching_off > kClosed;
+  // What the load alone brings into contact no attraction has closed.
+  const double by_load = share_touching(rings, loaded, measure);
+  out.pull_in = out.pull_in || out.to_fold < 1 || is_pulled_shut(1, by_load, out.touching_on);
+  out.pull_in_undriven = out.pull_in_undriven || is_pulled_shut(1, by_load, out.touching_off);
   return out;
 }
 

@@ -24,8 +24,8 @@ struct Balance {
   // Of the voltage, by the least of the rings: that at which the equilibrium ends at a fold, over
   // the one applied; infinite where gaps close without one.
   double to_fold = kInfinity;
-  // The gaps close: beyond a fold, with nearly all of the ridges in contact, or without any
-  // equilibrium; the open gaps are left out then.
+  // The gaps close: beyond a fold, with nearly all that the load leaves open pulled into contact
+  // (is_pulled_shut), or without any equilibrium; the open gaps are left out then.
   bool pull_in = false;
   bool pull_in_undriven = false;  // without the drive already
   std::vector<double> pressures;  // of patches to solve [Pa]

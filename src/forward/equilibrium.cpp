@@ -54,9 +54,9 @@ std::vector<double> difference(std::vector<double> a, const std::vector<double>&
 }  // namespace
 
 bool is_pulled_shut(double places, double under_load, double touching) {
-  constexpr double kFull = 0.9, kLeastOpen = 0.05;
+  constexpr double kFull = 0.9;
   const double open = places - under_load;
-  return open >= kLeastOpen * places && touching - under_load > kFull * open;
+  return open >= kLeastLeftOpen * places && touching - under_load > kFull * open;
 }
 
 std::vector<double> with_mean(std::vector<double> traction, double wanted) {

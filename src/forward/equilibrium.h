@@ -12,9 +12,13 @@ namespace papilla::forward {
 // Tractions of this shape with another mean; all of them 0: no shape.
 std::vector<double> with_mean(std::vector<double> traction, double wanted);
 
+// Share of the places that the load alone has to leave open for attraction to have a gap to close.
+// Eq. coupling.2
+constexpr double kLeastLeftOpen = 0.05;
+
 // Whether attraction has closed a gap: of so many places those that touch under the load alone, and
 // those that touch under both. What the load has closed itself no attraction pulled in, and where
-// it leaves less than a twentieth open, closing that is no pull-in: its attraction is a part of all
+// it leaves less than kLeastLeftOpen, closing that is no pull-in: its attraction is a part of all
 // that acts on the patch, whatever the gap there. Eq. coupling.2
 bool is_pulled_shut(double places, double under_load, double touching);
 

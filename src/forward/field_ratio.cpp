@@ -18,9 +18,11 @@
 namespace papilla::forward {
 namespace {
 
-// What one skin says of others, relative: one standard deviation, like kOfFullField, over the table
-// of docs/theory/electrostatics.md.
-constexpr double kOfOneSkin = 0.03;
+// What pixels and cells leave of a 3-D field without water, relative.
+constexpr double kOfFullField = 0.02;
+// What one skin says of others, one standard deviation: relative, over the table of
+// docs/theory/electrostatics.md; and of what is taken off the rule's pull, over the one of pixels.
+constexpr double kOfOneSkin = 0.03, kOfTakenOff = 0.15;
 // What a film that lags behind the gap by an eighth of a turn leaves: the 3-D field sees the real
 // part of its thickness, the rest as on a flat stack. Relative, one standard deviation; against the
 // complex potential on rough skin at 30 Hz. Eq. electrostatics.17
@@ -65,7 +67,7 @@ std::vector<AtRest> at_rest(const PatchSetup& setup, int k) {
   return out;
 }
 
-// By the 3-D field [Pa]; nothing where contact or field have no solution.
+// By the 3-D field [Pa], be it below 0; nothing where contact or field have no solution.
 std::optional<double> full_pull(const PatchSetup& setup, const AtRest& patch,
                                 double relative_humidity) {
   if (patch.gap.value.empty()) return std::nullopt;
@@ -83,7 +85,13 @@ double error_of_lag(const Scene& scene, double relative_humidity) {
   return size > 0 ? kOfLag * square(2 * series.real() * series.imag() / size) : 0;
 }
 
+double taken_off(double ratio) { return std::clamp(1 - ratio, 0.0, 1.0); }
+
 }  // namespace
+
+double full_field_error(double correction) {
+  return std::hypot(kOfFullField, std::min(1.0, square(taken_off(correction)) / correction));
+}
 
 FieldRatio field_ratio(std::span<const std::optional<double>> full, std::span<const double> rule,
                        bool corrected) {
@@ -96,18 +104,22 @@ FieldRatio field_ratio(std::span<const std::optional<double>> full, std::span<co
   const double sum = std::accumulate(by_rule.begin(), by_rule.end(), 0.0);
   FieldRatio out;
   // Nothing pulls, in a flooded patch, or no 3-D field is known: nothing to correct.
-  if (!(sum > 0) || !(std::accumulate(solved.begin(), solved.end(), 0.0) > 0)) {
+  if (!(sum > 0)) {
     out.error = 1;
     return out;
   }
-  const Estimate e = ratio_estimate(solved, by_rule);
+  Estimate e = ratio_estimate(solved, by_rule);
+  const double of_skins = std::hypot(kOfOneSkin * e.value, kOfTakenOff * taken_off(e.value)) /
+                          std::sqrt(static_cast<double>(solved.size()));
+  e.se = std::max(e.se, of_skins);
+  const Estimate ratio = not_below_zero(e);
   if (!corrected) {
-    out.error = std::abs(1 / e.value - 1);
+    // Distance from the 3-D field over it; a pull is off by no more than all of itself.
+    out.error = std::min(1.0, std::abs(1 / ratio.value - 1));
     return out;
   }
-  out.correction = e.value;
-  const double skins = kOfOneSkin / std::sqrt(static_cast<double>(solved.size()));
-  out.error = std::hypot(kOfFullField, std::max(skins, solved.size() > 1 ? e.se / e.value : 0));
+  out.correction = ratio.value;
+  out.error = std::hypot(full_field_error(ratio.value), ratio.se / ratio.value);
   return out;
 }
 
@@ -132,8 +144,8 @@ FieldRatios field_ratios(const Scene& scene, const Texture& texture, const Fidel
   const Scene in_state = in_its_state(scene);
   if (method == FieldMethod::Full) {
     for (std::size_t i = 0; i < humidities; ++i)
-      out[i].error =
-          std::hypot(kOfFullField, error_of_lag(in_state, scene.environment.relative_humidity[i]));
+      out[i].error = std::hypot(full_field_error(1),
+                                error_of_lag(in_state, scene.environment.relative_humidity[i]));
     return out;
   }
   if (fidelity.field_skins == 0) return out;

@@ -26,7 +26,8 @@ using FieldRatios = std::vector<FieldRatio>;  // one per humidity of a scene
 FieldRatios field_ratios(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
 
 // That of a humidity from the pulls of single skins [Pa]. A skin whose 3-D field has no solution
-// counts in neither sum; without any the error is 1.
+// counts in neither sum; without any the error is 1. A pull below 0 counts: beside water the 3-D
+// field takes more off the air's pull than these pixels leave of it, so little or nothing is left.
 FieldRatio field_ratio(std::span<const std::optional<double>> full, std::span<const double> rule,
                        bool corrected);
 
@@ -34,9 +35,10 @@ FieldRatio field_ratio(std::span<const std::optional<double>> full, std::span<co
 // it [s] on one core.
 bool field_corrected(const Scene& scene, const Fidelity& fidelity);
 inline constexpr double kCorrectedFieldError = 0.03;
-// What pixels and cells of the 3-D field leave of the pull, relative: common to all runs that are
-// corrected to it.
-inline constexpr double kOfFullField = 0.02;
+// What pixels and cells of the 3-D field leave of the pull that is corrected to it, relative, at
+// most all of it: common to all runs. The walls of water, which take pull off, take more off on
+// finer pixels. Eq. electrostatics.17
+double full_field_error(double correction);
 inline constexpr int kMostFieldPixels = 128;  // along the window: finer ones move no ratio
 double field_ratio_seconds(const Scene& scene, const Grid& grid, const Fidelity& fidelity);
 

@@ -6,6 +6,7 @@
 
 #include "base/constants.h"
 #include "forward/electric_path.h"
+#include "forward/equilibrium.h"
 #include "forward/scene_terms.h"
 #include "forward/water_band.h"
 #include "numerics/statistics.h"
@@ -108,7 +109,8 @@ OffAndOn areas_by_load(ResponsePoint& point, const ScaleBridge& bridge, Patches 
     const double ratio = ratio_estimate(loads, preload).value;
     const double factor = fidelity.area_by_load(ratio / growth);
     const double open = area_factor * dry_mean * factor;
-    note_full_contact(point, setting.scene, open);
+    // A contact that the load alone has closed cannot grow: it is held at the patch, as it is.
+    if (dry_mean <= 1 - kLeastLeftOpen) note_full_contact(point, setting.scene, open);
     GrownArea out;
     out.area.samples.resize(dry.size());
     if (open > 0) out.held = grown(area_factor * dry_mean, factor) / open;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numeric>
 
 #include "base/constants.h"
 #include "base/text.h"
@@ -19,11 +18,6 @@ namespace papilla::lab {
 namespace {
 
 constexpr double kLow = 0.025, kHigh = 0.975;  // of a 95 % interval
-
-double weighted_mean(const std::vector<double>& values, const std::vector<double>& weights) {
-  return std::inner_product(values.begin(), values.end(), weights.begin(), 0.0) /
-         std::accumulate(weights.begin(), weights.end(), 0.0);
-}
 
 void set_members(const Belief& belief, Ensemble& e) {
   for (const BeliefMember& m : belief.members) {

@@ -82,7 +82,7 @@ class JudgedScene {
     for (const ResponsePoint& p : r.points) {
       const double e = p.field_error.value_or(0);
       all += e;
-      own += std::sqrt(std::max(0.0, square(e) - square(kOfFullField)));
+      own += std::sqrt(std::max(0.0, square(e) - square(full_field_error(p.field_correction))));
     }
     return all > 0 ? own / all : 1;
   }

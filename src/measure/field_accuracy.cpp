@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "forward/forward.h"
 #include "forward/scene_terms.h"
-#include "physics/electrostatics/full_field.h"
+#include "physics/electrostatics/rules.h"
 
 namespace papilla::measure {
 namespace {
@@ -126,7 +126,8 @@ std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const De
     });
     for (const int factor : options.refinements) {
       add("full", fine_patch(design, picture, factor), [&](const FinePatch& patch) {
-        return solve_full_field(patch.gap, &patch.surface, patch.wetting, problem);
+        return field_rule(FieldMethod::Full)
+            .solve(patch.gap, &patch.surface, patch.wetting, problem, 0);  // of its own accuracy
       });
     }
     const double exact = rows.back().pull;

@@ -83,6 +83,11 @@ Estimate meant_share(double ratio, double freedom, std::size_t samples) {
   return {1 - scatter, std::sqrt(std::max(0.0, second / sum - scatter * scatter))};
 }
 
+double weighted_mean(std::span<const double> values, std::span<const double> weights) {
+  return std::inner_product(values.begin(), values.end(), weights.begin(), 0.0) /
+         std::accumulate(weights.begin(), weights.end(), 0.0);
+}
+
 double quantile(std::vector<double> values, double p) {
   PAPILLA_CHECK(!values.empty(), "quantile of nothing");
   std::sort(values.begin(), values.end());
@@ -114,6 +119,16 @@ double weighted_quantile(std::span<const double> values, std::span<const double>
     middle_of_last = middle;
   }
   return last;
+}
+
+Estimate not_below_zero(const Estimate& e) {
+  if (!(e.se > 0)) return {std::max(e.value, 0.0), 0};
+  const double z = e.value / e.se;
+  // Where nearly all would lie below 0 the rest falls off as an exponential does.
+  constexpr double kFarBelow = -30;
+  if (z < kFarBelow) return {-e.se / z, -e.se / z};
+  const double hazard = std::exp(-z * z / 2) / std::sqrt(2 * kPi) / normal_cdf(z);
+  return {e.value + e.se * hazard, e.se * std::sqrt(1 - hazard * (z + hazard))};
 }
 
 double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }

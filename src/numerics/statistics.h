@@ -29,9 +29,12 @@ std::vector<double> error_moves(std::span<const double> samples);
 // se: one standard deviation of k. samples: from how many each scatter is known; 0: it is known.
 // Never 0, where a difference of squares would be below it. Eq. search.23, accuracy.18
 Estimate meant_share(double ratio, double freedom, std::size_t samples = 0);
+double weighted_mean(std::span<const double> values, std::span<const double> weights);
 double quantile(std::vector<double> values, double p);  // linear interpolation, p in [0, 1]
 // Of weighted values: linear between the middles of their shares, the ends beyond.
 double weighted_quantile(std::span<const double> values, std::span<const double> weights, double p);
+// Mean and standard deviation of a normal number that is known not to lie below 0.
+Estimate not_below_zero(const Estimate& e);
 double normal_cdf(double x);
 double normal_quantile(double p);
 double student_t_quantile(double p, int degrees_of_freedom);  // two-sided intervals: p = 0.975

@@ -38,6 +38,21 @@ TEST(Program, HelpAndVersionSucceed) {
   EXPECT_GE(commands, 4);
 }
 
+TEST(Program, TakesTheWordHelpForTheOption) {
+  const Workplace place;
+  for (const auto& [word, option] : std::vector<std::pair<std::string, std::string>>{
+           {"help", "--help"},
+           {"help solve", "solve --help"},
+           {"solve help contact", "solve contact --help"}}) {
+    const Outcome help = place.run(word);
+    EXPECT_EQ(help.status, 0) << word;
+    EXPECT_EQ(help.out, place.run(option).out) << word;
+  }
+  const Outcome none = place.run("help evalute");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("did you mean `evaluate`?"), std::string::npos) << none.err;
+}
+
 // The libraries of image formats and of searches take longer to load than most commands run.
 TEST(Program, LoadsModulesWhereTheyAreUsedAndNowhereElse) {
   const Workplace place;
@@ -203,6 +218,19 @@ TEST(Explain, OfAStudySaysWhatItTakes) {
       << run.out;
   EXPECT_NE(run.out.find("as busy as this machine is now, and about "), std::string::npos)
       << run.out;
+}
+
+// As `optimize` refuses it.
+TEST(Explain, OfAStudyThatNoDesignAnswersIsRefused) {
+  const Workplace place;
+  const Outcome run = place.run("explain " PAPILLA_DESIGNS_DIR
+                                "/m3_glass/conformal.toml --set 'constraints.min_wall=\"12 um\"' "
+                                "--set 'design_space.texture.depth=[\"100 nm\", \"500 nm\"]'");
+  EXPECT_EQ(run.status, 2) << run.out;
+  EXPECT_NE(run.err.find("no texture of [design_space] keeps min_wall (at least 12 um)"),
+            std::string::npos)
+      << run.err;
+  EXPECT_EQ(run.out, "");
 }
 
 // As `optimize` prices it, which keeps no more processors busy.
@@ -581,6 +609,49 @@ TEST(Export, WarnsOfARunThatKeepsItsLimitsNowhere) {
             std::string::npos);
 }
 
+// Only where the run was there is the best design rounded.
+TEST(Export, SaysWhetherTheBuildSheetIsOnTheGridOfTheFab) {
+  const Workplace place;
+  for (const char* name : {"design.toml", "build.toml"})
+    place.write(std::string("run/best/") + name,
+                "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n");
+  const auto said = [&](const std::string& run_json) {
+    place.write("run/run.json", run_json);
+    return place.run("export run --pixels 64 --format npy --out out").err;
+  };
+  const std::string grid = "on the grid of the fab as the build sheet has it",
+                    interrupted = "the run was interrupted before its best design was rounded",
+                    off = "not all on the grid of the fab";
+  const std::string whole =
+      said(R"({"interrupted": false, "grid": 1e-8, "build": {"on_grid": true}})");
+  EXPECT_NE(whole.find(grid), std::string::npos) << whole;
+  const std::string cut = said(R"({"interrupted": true})");
+  EXPECT_NE(cut.find(interrupted), std::string::npos) << cut;
+  EXPECT_EQ(cut.find(grid), std::string::npos) << cut;
+  const std::string beside =
+      said(R"({"interrupted": false, "grid": 1e-8, "build": {"on_grid": false}})");
+  EXPECT_NE(beside.find(off), std::string::npos) << beside;
+  EXPECT_EQ(said(R"({"interrupted": false, "grid": 0, "build": {"on_grid": true}})").find(grid),
+            std::string::npos);
+}
+
+// A millimetre holds more droplets than can be settled, and no file holds one.
+TEST(Export, DrawsWhatCannotBeSimulated) {
+  const Workplace place;
+  const std::string wide =
+      "export " + kSample +
+      " --set texture.period=1000um --set texture.diameter=900um --set texture.depth=100um"
+      " --format gsf --pixels 64 --out out";
+  const Outcome drawn = place.run(wide);
+  EXPECT_EQ(drawn.status, 0) << drawn.err;
+  EXPECT_EQ(place.run("verify out --geometry").status, 0);
+  for (const std::string& felt : {wide + " --verify", std::string("verify out")}) {
+    const Outcome refused = place.run(felt);
+    EXPECT_EQ(refused.status, 2) << felt;
+    EXPECT_NE(refused.err.find("finger.water.drops_per_um3"), std::string::npos) << refused.err;
+  }
+}
+
 TEST(Export, WritesTheFilesThatItNames) {
   const Workplace place;
   const Outcome run =
@@ -797,6 +868,8 @@ TEST(Program, MistakesOnTheCommandLineNameThemselves) {
            {"export " + kSample + " --size '12x0 um'", "expected lengths above 0"},
            {"optimize " PAPILLA_TEST_DATA "/study/tiny.toml --time '-1 min'", "--time"},
            {"optimize " PAPILLA_TEST_DATA "/study/tiny.toml --finish", "add --resume"},
+           {"optimize " PAPILLA_TEST_DATA "/study/tiny.toml --set model.rim_pinning=true",
+            "fit the finger again, or run with --force"},
            {"optimize " PAPILLA_TEST_DATA "/study/tiny.toml --set objective.risk='mean - -2 std'",
             "seeks risk"},
            {"evaluate " + kSample + " --set texture.type=stack", "at least one part"},

@@ -195,6 +195,27 @@ TEST(Balance, GapsCloseWithoutAJump) {
   }
 }
 
+// Nothing attracts: what the load has brought into contact is no pull-in, however smooth the ridges
+// are, and the mean pressure of the patches goes over into that of the smooth face.
+TEST(Balance, WithoutAttractionNoGapIsPulledShut) {
+  Scene scene = balanced(0);
+  scene.finger.water.volume = {0, 0, 0, 0};
+  double touching = 0;
+  for (const double ridges : {1e-6, 0.1e-6, 10e-9, 1e-9, 1e-11, 1e-13}) {
+    scene.finger.macro.ridge_rms = ridges;
+    const ScaleBridge bridge(scene, small(), kGrid, kHumidity);
+    const Balance& b = bridge.balance();
+    EXPECT_FALSE(b.pull_in) << ridges;
+    EXPECT_FALSE(b.pull_in_undriven) << ridges;
+    EXPECT_GE(b.touching_off, touching) << ridges;
+    touching = b.touching_off;
+    if (ridges <= 1e-11) {
+      EXPECT_NEAR(bridge.mean_pressure(), b.nominal, 1e-6 * b.nominal) << ridges;
+    }
+  }
+  EXPECT_NEAR(touching, 1, 1e-9);
+}
+
 // A relief that is deep beside the gap takes away what it opens.
 TEST(Balance, OverHolesTheOpenGapsPullLess) {
   const double flat = solved(balanced(100), 1, holes(0)).far.pull;

@@ -233,12 +233,19 @@ TEST(ControlRunLaws, TheFieldsOwnPatchHasSixtyFourPixelsAtLeast) {
                                        p.fields.wetting_on, field_problem(scene, 0.3))
                           .mean_pressure;
   EXPECT_NEAR(ratio.correction, full / p.fields.pull.mean(), 1e-6);
-  // One skin has no scatter of its own: 2 % and 3 %.
-  EXPECT_NEAR(*ratio.error, std::hypot(0.02, 0.03), 1e-7);  // and next to no lag at 5 kHz
-  // Two of nearly the same ratio: 3 % over the root of two.
+  // One skin has no scatter of its own, but that of others.
+  const auto of_skins = [](double r, double skins) {
+    return std::hypot(0.03 * r, 0.15 * std::max(0.0, 1 - r)) / std::sqrt(skins) / r;
+  };
+  const auto error = [&](double r, double skins) {
+    return std::hypot(full_field_error(r), of_skins(r, skins));
+  };
+  // And next to no lag at 5 kHz.
+  EXPECT_NEAR(*ratio.error, error(ratio.correction, 1), 1e-7);
+  // Two of nearly the same ratio.
   f.field_skins = 2;
-  EXPECT_NEAR(*field_ratios(scene, texture, f)[0].error, std::hypot(0.02, 0.03 / std::sqrt(2.0)),
-              1e-7);
+  const FieldRatio two = field_ratios(scene, texture, f)[0];
+  EXPECT_NEAR(*two.error, error(two.correction, 2), 1e-7);
 }
 
 TEST(ControlRunLaws, AnAnswerBeforeItIsAskedIsNothing) {

@@ -54,7 +54,9 @@ TEST(FieldRatio, TwoSkinsCorrectTheRuleOnOthersToTheThreeDimensionalField) {
     EXPECT_FALSE(plain.points[i].field_error);
     const ResponsePoint& point = scaled.points[i];
     ASSERT_TRUE(point.field_error);
-    EXPECT_LT(*point.field_error, 0.06);
+    // Of R: pixels of the 3-D field, and two skins.
+    const double r = point.field_correction, off = 1 - r;
+    EXPECT_LT(*point.field_error, 1.1 * std::hypot(0.02, off * off / r, 0.03 + 0.11 * off / r));
     EXPECT_NEAR(point.electrostatic_force.value, pull, 2 * *point.field_error * pull);
     EXPECT_NEAR(point.modulation.value, exact.points[i].modulation.value,
                 2 * *point.modulation.parts.field);
@@ -82,14 +84,42 @@ TEST(FieldRatio, ASkinWithoutA3DFieldIsNoSkinWithoutAPull) {
   const std::vector<double> rule{1e3, 2e3, 4e3};
   const FieldRatio two = field_ratio(Full{800, std::nullopt, 3200}, rule, true);
   EXPECT_NEAR(two.correction, 0.8, 1e-12);
-  EXPECT_NEAR(*two.error, std::hypot(0.02, 0.03 / std::sqrt(2)), 1e-12);
+  // Of pixels, of what they leave of the fifth that is taken off, and of two skins.
+  const double of_skins = std::hypot(0.03 * 0.8, 0.15 * 0.2) / std::sqrt(2) / 0.8;
+  EXPECT_NEAR(*two.error, std::hypot(0.02, 0.04 / 0.8, of_skins), 1e-12);
   const FieldRatio none = field_ratio(Full(3), rule, true);
   EXPECT_EQ(none.correction, 1);
   EXPECT_EQ(*none.error, 1);
   // A flooded skin has a field and no pull.
   const std::vector<double> flooded{1e3, 0};
   EXPECT_NEAR(*field_ratio(Full{800, 0.0}, flooded, true).error,
-              std::hypot(0.02, 0.03 / std::sqrt(2)), 1e-12);
+              std::hypot(0.02, 0.04 / 0.8, of_skins), 1e-12);
+}
+
+// The wetter a patch, the less is left of the rule's pull, without a step where the 3-D field's own
+// passes zero: a skin below it was left out, and without any the rule stood uncorrected.
+TEST(FieldRatio, FallsToNextToNothingWhereThe3DPullPassesZero) {
+  using Full = std::vector<std::optional<double>>;
+  const std::vector<double> rule{1e3, 1e3};
+  FieldRatio before = field_ratio(Full{1000.0, 1000.0}, rule, true);
+  EXPECT_EQ(before.correction, 1);
+  for (double pull = 990; pull > -1000; pull -= 10) {
+    const FieldRatio ratio = field_ratio(Full{pull, pull}, rule, true);
+    EXPECT_GT(ratio.correction, 0) << pull;
+    EXPECT_LT(ratio.correction, before.correction + 1e-12) << pull;
+    EXPECT_GT(ratio.correction, before.correction - 0.011) << pull;
+    EXPECT_GE(*ratio.error, *before.error - 1e-3) << pull;
+    before = ratio;
+  }
+  EXPECT_LT(before.correction, 0.1);
+  EXPECT_GT(*before.error, 1);
+  EXPECT_LT(*before.error, std::sqrt(2) + 1e-3);
+  // Columns, which nothing corrects, are off by no more than all of their pull.
+  EXPECT_EQ(*field_ratio(Full{-500.0, -500.0}, rule, false).error, 1);
+  EXPECT_NEAR(*field_ratio(Full{800.0, 800.0}, rule, false).error, 0.25, 1e-6);
+  // One skin above and one below zero: both count, a mean of 0.3 that is known to 0.6.
+  EXPECT_NEAR(field_ratio(Full{900.0, -300.0}, rule, true).correction,
+              not_below_zero({0.3, 0.6}).value, 1e-12);
 }
 
 // A relative error of the pull moves the friction of contact by beta times the share of the pull

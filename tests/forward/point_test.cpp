@@ -282,6 +282,23 @@ TEST(Point, FrictionByACoefficientHasNoFullContact) {
   EXPECT_EQ(c.point(1000).status.trouble, Trouble::FullContact);
 }
 
+// A smooth pin touches everywhere under its load: attraction brings no more into contact, and the
+// friction under voltage is the friction without it.
+TEST(Point, AContactThatTheLoadAloneHasClosedIsNoTroubleAndDoesNotGrow) {
+  Case c;
+  for (PatchResult& patch : c.patches) {
+    patch.area_dry = 1;
+    patch.retention = patch.retention_on = 0;
+  }
+  const ResponsePoint closed = c.point();
+  EXPECT_TRUE(closed.status.sound()) << text(closed.status);
+  EXPECT_NEAR(closed.area_fraction_on.value, 1, 1e-12);
+  EXPECT_NEAR(closed.modulation.value, 0, 1e-12);
+  // Where it leaves a tenth open, the law says more than there is.
+  for (PatchResult& patch : c.patches) patch.area_dry = 0.9;
+  EXPECT_EQ(c.point().status.trouble, Trouble::FullContact);
+}
+
 TEST(Point, WithoutADriveThereIsNoModulation) {
   Case c;
   c.plan.field = false;

@@ -51,12 +51,14 @@ Fidelity level(const char* name) {
 }
 
 // Of the parts of an error, those that the comparison leaves: sampling, grid, solver and method,
-// and of the 3-D field what is beyond the 2 % that its own pixels leave, a mean over humidity.
+// and of the 3-D field what is beyond what its own pixels leave, a mean over humidity.
 double total(const ErrorParts& e, const Response& r) {
   double all = 0, own = 0;
   for (const ResponsePoint& p : r.points) {
     const double field = p.field_error.value_or(0);
-    all += field, own += std::sqrt(std::max(0.0, square(field) - square(0.02)));
+    all += field,
+        own +=
+        std::sqrt(std::max(0.0, square(field) - square(full_field_error(p.field_correction))));
   }
   const double field = e.field.value_or(0) * (all > 0 ? own / all : 1);
   return std::sqrt(square(e.sampling) + square(e.grid.value_or(0)) + square(e.solver.value_or(0)) +

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "base/constants.h"
+
 namespace papilla::tests::statistics_test {
 namespace {
 
@@ -94,6 +96,20 @@ TEST(Statistics, QuantilesInterpolateBetweenSortedValues) {
                                     {2.0, 4.0}})
     EXPECT_NEAR(quantile(values, p), expected, 1e-14) << p;
   EXPECT_EQ(quantile({5}, 0.3), 5);
+}
+
+// The half normal distribution; far below zero an exponential one, far above the normal one.
+TEST(Statistics, ANumberKnownNotToBeBelowZeroHasTheMomentsOfItsUpperPart) {
+  const Estimate half = not_below_zero({0, 2});
+  EXPECT_NEAR(half.value, 2 * std::sqrt(2 / kPi), 1e-12);
+  EXPECT_NEAR(half.se, 2 * std::sqrt(1 - 2 / kPi), 1e-12);
+  EXPECT_EQ(not_below_zero({3, 0.1}), (Estimate{3, 0.1}));
+  EXPECT_EQ(not_below_zero({-3, 0}), (Estimate{0, 0}));
+  for (const double below : {-29.999, -30.001, -200.0}) {
+    const Estimate far = not_below_zero({below, 1});
+    EXPECT_NEAR(far.value, -1 / below, 3e-3 / -below) << below;
+    EXPECT_NEAR(far.se, -1 / below, 4e-3 / -below) << below;
+  }
 }
 
 TEST(Statistics, NormalQuantilesInvertTheDistribution) {

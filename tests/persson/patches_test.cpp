@@ -51,6 +51,24 @@ TEST(PatchPressures, MatchTheTable) {
   }
 }
 
+// Ridges of next to no roughness: each part of the area has one pressure, far from the others'.
+TEST(PatchPressures, KeepPartsThatLieFarApart) {
+  const std::vector<NominalPressure> parts{{1e4, 0.2}, {2e4, 0.3}, {3e4, 0.5}};
+  for (const int nodes : {1, 3}) {
+    const PatchPressures patches(1, parts, nodes);
+    double touching = 0, load = 0, squares = 0;
+    for (std::size_t k = 0; k < patches.share().size(); ++k) {
+      const double share = patches.share()[k], s = patches.pressure()[k];
+      touching += share, load += share * s, squares += share * s * s;
+    }
+    EXPECT_NEAR(touching, 1, 1e-9) << nodes;
+    EXPECT_NEAR(load, 2.3e4, 1e-9 * 2.3e4) << nodes;
+    if (nodes > 1) {
+      EXPECT_NEAR(squares, 5.9e8, 1e-8 * 5.9e8);
+    }
+  }
+}
+
 TEST(PatchPressures, CarryTheLoad) {
   for (double x : {1e-3, 0.1, 1.0, 5.0, 30.0}) {
     const double root = 2e6;

@@ -159,10 +159,6 @@ FieldSolution solve_full_field(const Gap& gap, const CoveredSurface* surface,
   out.reason = s.reason;
   if (s.iterations == 0 && !s.ok) return out;
   add_pull(s, gap, wetting, p, out);
-  if (out.ok && out.mean_pressure < 0) {
-    out.ok = false;
-    out.reason = "the 3-D field is not resolved on these pixels: its pull is negative";
-  }
   out.peak_air_field = std::min(p.v_peak * s.peak_air, p.film_holds);
   out.peak_oxide_field = peak_oxide_field(s, surface, wetting, p);
   return out;

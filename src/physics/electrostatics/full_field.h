@@ -75,7 +75,9 @@ bool knows_skin_layer(const Grid& grid, const FieldProblem& problem);
 // in Eq. electrostatics.1. surface as in solve_local_field. The peak field in the dielectric is
 // that of the voltage over the whole of it, as in the other rules: at the contact line of water and
 // at sharp edges the field itself has no largest value (Eq. electrostatics.9). Not ok: as the
-// potential, a layer of the skin that is too thick (knows_skin_layer), a pull below zero.
+// potential, a layer of the skin that is too thick (knows_skin_layer). The pull may lie below 0
+// where water covers most of the patch: walls of water take more off on finer pixels, and no grid
+// was found on which they have taken all (Eq. electrostatics.17).
 FieldSolution solve_full_field(const Gap& gap, const CoveredSurface* surface,
                                const Wetting& wetting, const FieldProblem& problem,
                                const PotentialOptions& options = {});

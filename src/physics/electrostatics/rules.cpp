@@ -24,11 +24,19 @@ const FieldRule kSpread{"columns, the flux spreading in the dielectric",
                         },
                         solve_spread_field};
 
+FieldSolution full_field(const Gap& gap, const CoveredSurface* surface, const Wetting& wetting,
+                         const FieldProblem& problem, double) {
+  FieldSolution out = solve_full_field(gap, surface, wetting, problem);
+  if (out.ok && out.mean_pressure < 0) {
+    out.ok = false;
+    out.reason = "the 3-D field is not resolved on these pixels: its pull is negative";
+  }
+  return out;
+}
+
 const FieldRule kFull{"3-D potential", "asked for; pull stated to 2 %", 0.02,
                       [](const Grid& grid, double) { return full_field_seconds(grid); },
-                      [](const Gap& gap, const CoveredSurface* surface, const Wetting& wetting,
-                         const FieldProblem& problem,
-                         double) { return solve_full_field(gap, surface, wetting, problem); }};
+                      full_field};
 
 }  // namespace
 

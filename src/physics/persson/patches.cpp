@@ -18,30 +18,24 @@ PatchPressures::PatchPressures(double stress_measure, std::vector<NominalPressur
     : measure_(stress_measure), parts_(std::move(parts)) {
   PAPILLA_CHECK(stress_measure > 0 && !parts_.empty(), "patches need roughness and a load");
   PAPILLA_CHECK(nodes >= 1 && nodes <= 64, "1 to 64 patch pressures");
-  double least = kInfinity, most = 0;
-  for (const NominalPressure& part : parts_) {
+  for (const NominalPressure& part : parts_)
     PAPILLA_CHECK(part.pressure > 0, "patches need roughness and a load");
-    least = std::min(least, part.pressure);
-    most = std::max(most, part.pressure);
-  }
-  // In units of sqrt(M): density at s about x. Discretised, then Stieltjes' recurrence and the
-  // eigenvalues of the Jacobi matrix.
+  // In units of sqrt(M): density at s about x, each part on points of its own, as parts of little
+  // roughness lie far apart. Discretised, then Stieltjes' recurrence and the eigenvalues of the
+  // Jacobi matrix.
   const double root = std::sqrt(stress_measure);
   static const Quadrature unit = gauss_legendre(400, 0, 1);
-  const double low = std::max(0.0, least / root - 7), width = most / root + 7 - low;
-  Quadrature fine = unit;
-  for (std::size_t i = 0; i < fine.nodes.size(); ++i) {
-    fine.nodes[i] = low + width * unit.nodes[i];
-    fine.weights[i] = width * unit.weights[i];
-  }
-  std::vector<double> weight(fine.nodes.size());
-  for (std::size_t i = 0; i < weight.size(); ++i) {
-    const double s = fine.nodes[i];
-    for (const NominalPressure& part : parts_) {
-      const double x = part.pressure / root;
+  std::vector<double> point, weight;
+  for (const NominalPressure& part : parts_) {
+    constexpr double kReach = 7;  // beyond it the density is below 1e-21 of its peak
+    const double x = part.pressure / root, low = std::max(0.0, x - kReach),
+                 width = x + kReach - low;
+    for (std::size_t i = 0; i < unit.nodes.size(); ++i) {
+      const double s = low + width * unit.nodes[i];
+      point.push_back(s);
       // exp(-(s-x)^2) - exp(-(s+x)^2) without cancellation
-      weight[i] += part.share * fine.weights[i] * std::exp(-square(s - x)) *
-                   -std::expm1(-4 * s * x) / std::sqrt(kPi);
+      weight.push_back(part.share * width * unit.weights[i] * std::exp(-square(s - x)) *
+                       -std::expm1(-4 * s * x) / std::sqrt(kPi));
     }
   }
   const auto n = static_cast<Eigen::Index>(nodes);
@@ -52,14 +46,14 @@ PatchPressures::PatchPressures(double stress_measure, std::vector<NominalPressur
     double norm = 0, moment = 0;
     for (std::size_t i = 0; i < weight.size(); ++i) {
       norm += weight[i] * square(here[i]);
-      moment += weight[i] * square(here[i]) * fine.nodes[i];
+      moment += weight[i] * square(here[i]) * point[i];
     }
     if (k == 0) total = norm;
     diagonal[k] = moment / norm;
     const double beta = k > 0 ? norm / norm_before : 0;
     if (k > 0) off[k - 1] = std::sqrt(beta);
     for (std::size_t i = 0; i < weight.size(); ++i) {
-      const double next = (fine.nodes[i] - diagonal[k]) * here[i] - beta * before[i];
+      const double next = (point[i] - diagonal[k]) * here[i] - beta * before[i];
       before[i] = here[i];
       here[i] = next;
     }
