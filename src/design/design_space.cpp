@@ -9,6 +9,14 @@
 #include "design/study_file.h"
 
 namespace papilla::design {
+
+bool is_built(const std::string& path) {
+  constexpr std::array kOthers{"finger", "environment", "model", "accuracy"};
+  const std::string section = path.substr(0, path.find('.'));
+  return std::none_of(kOthers.begin(), kOthers.end(),
+                      [&](const char* other) { return section == other; });
+}
+
 namespace {
 
 // The texture's kind and number of parts; then the numbers of every kind may be varied.
@@ -92,13 +100,6 @@ void read_excluded(StudyFile& file, const NumberField& field, const Node& list,
     all[i - 1].to = std::max(all[i - 1].to, all[i].to);
     all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
   }
-}
-
-// Numbers of what no fab makes: who touches, in which air, and how that is calculated.
-bool is_built(const std::string& path) {
-  constexpr std::array kOthers{"finger.", "environment.", "model.", "accuracy."};
-  return std::none_of(kOthers.begin(), kOthers.end(),
-                      [&](const char* section) { return path.starts_with(section); });
 }
 
 // Bounds [low, high] of a number, what is excluded between them, or its choices.

@@ -31,6 +31,10 @@ struct Variable {
   bool operator==(const Variable&) const = default;
 };
 
+// Whether a number is one of what is built, so that a search may choose it, and not of who touches
+// it, in which air, or how that is calculated.
+bool is_built(const std::string& path);
+
 // What a metric should be at every humidity.
 struct Target {
   Metric metric;

@@ -174,13 +174,14 @@ Json texture_schema() {
   return {{"anyOf", std::move(kinds)}};
 }
 
-// The paths of numbers, as design_space, scatter and scenarios name them.
-std::string path_pattern() {
+// The paths of numbers, as scatter and scenarios name them; built: as design_space does.
+std::string path_pattern(bool built) {
   std::vector<std::string> paths;
   for (std::size_t k = 0; k < texture_kinds().size(); ++k) {
     Design d;
     d.texture = default_texture(k);
     for (const NumberField& field : number_fields(d)) {
+      if (built && !is_built(field.path)) continue;
       std::string path;
       for (const std::string& part : split(field.path, '.')) {
         const bool index = part.find_first_not_of("0123456789") == std::string::npos;
@@ -193,14 +194,16 @@ std::string path_pattern() {
   paths.push_back("texture\\.levels");
   paths.push_back("texture\\.parts\\.[0-9]+\\.[a-z_]+");
   // A section may stand for the beginning of a path: texture.depth without quotes.
-  return fmt::format(
-      "^({}|texture|surface|view|finger|counterface|environment|drive|model|accuracy)$",
-      join_names(paths, "|"));
+  for (const char* section : {"texture", "surface", "view", "finger", "counterface", "environment",
+                              "drive", "model", "accuracy"}) {
+    if (!built || is_built(section)) paths.push_back(section);
+  }
+  return fmt::format("^({})$", join_names(paths, "|"));
 }
 
-Json by_path(Json value) {
+Json by_path(Json value, bool built = false) {
   return {{"type", "object"},
-          {"propertyNames", {{"pattern", path_pattern()}}},
+          {"propertyNames", {{"pattern", path_pattern(built)}}},
           {"additionalProperties", {{"anyOf", {std::move(value), {{"type", "object"}}}}}}};
 }
 
@@ -267,7 +270,7 @@ Json study_sections() {
         {{"type", "array"},
          {"items", {{"type", "string"}, {"enum", {"load", "state", "touch_time", "belief"}}}}}}});
   fingers["required"] = {"fingers"};
-  return {{"design_space", by_path({{"anyOf", {interval, choice, gapped}}})},
+  return {{"design_space", by_path({{"anyOf", {interval, choice, gapped}}}, true)},
           {"objective", object({{"maximise", metrics},
                                 {"minimise", metrics},
                                 {"target", {{"type", "object"}, {"additionalProperties", value}}},

@@ -34,7 +34,8 @@ def inspect_optimize(browser):
     headings = "return [...document.querySelectorAll('#stability h2, #sensitivity h2')].map(h => h.textContent)"
     advice = browser.run("return document.getElementById('lead').textContent")
     check(re.match("Build|Leave it flat|Whether", advice), f"no recommendation: {advice}")
-    check(browser.run("return document.querySelectorAll('#steps tbody tr').length") >= 2, "no steps from flat to best")
+    rows = browser.run("return document.querySelectorAll('#steps tbody tr').length")
+    check(rows >= 1 and browser.run("return document.getElementById('change').hidden") == (rows < 2), f"{rows} steps from flat to best")
     held = browser.run("""
         const c = papilla.charts.pareto, sets = c.data.datasets.filter(s => s.bars).flatMap(s => s.data);
         return sets.every(p => p.x - p.ex >= c.scales.x.min && p.x + p.ex <= c.scales.x.max && p.y - p.ey >= c.scales.y.min && p.y + p.ey <= c.scales.y.max)""")

@@ -256,6 +256,7 @@ function showLimits(d) {
 function showSteps() {
   const steps = run.steps || [], names = steps.length ? Object.keys(steps[0].objectives) : [];
   const before = { 'flat, finish and drive of the study': 'finish', 'flat, finish and drive of the best': 'finish', 'best, with its texture': 'texture', 'best, on the grid of the fab': 'rounding', 'flat, on the grid of the fab': 'rounding' };
+  $('change').hidden = steps.length + (run.best_flat ? 1 : 0) < 2;  // the study's own surface is the best
   table($('steps'), ['Surface'].concat(names.map(called), ['what changed']), steps.map((s, i) => [s.surface].concat(names.map((n) => quantity(s.objectives[n], n) + (i ? ` (${change(s.objectives[n].value - steps[i - 1].objectives[n].value, n, s.objectives[n].se)})` : '')), [i ? before[s.surface] || '' : '']))
     .concat(run.best_flat ? [[run.best_flat.surface].concat(names.map((n) => quantity(run.best_flat.objectives[n], n)), ['beside it'])] : []), names.map((n, i) => i + 1));
 }
