@@ -39,7 +39,7 @@ inline constexpr double kCorrectedFieldError = 0.03;
 // most all of it: common to all runs. The walls of water, which take pull off, take more off on
 // finer pixels. Eq. electrostatics.17
 double full_field_error(double correction);
-inline constexpr int kMostFieldPixels = 128;  // along the window: finer ones move no ratio
+inline constexpr int kMostFieldPixels = 128;  // along the window; finer ones: `full_field_error`
 double field_ratio_seconds(const Scene& scene, const Grid& grid, const Fidelity& fidelity);
 
 // Adds what the pull's error leaves of the numbers of a point. Eq. electrostatics.17, friction.3,
