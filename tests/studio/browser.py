@@ -519,7 +519,7 @@ def taken(browser):
         check(all(w in texts for w in words), f"{name} says {texts}")
         lines = [p for p in root.iter("{http://www.w3.org/2000/svg}path") if p.get("stroke")]
         curves = [p.get("d").count("L") for p in lines if p.get("stroke-width") in ("1.5", "2", "2.5") and not p.get("d").endswith("Z")]
-        check(curves and max(curves) >= 1, f"{name} has no curve")
+        check(name == "designs.svg" or (curves and max(curves) >= 1), f"{name} has no curve")  # designs are points
         check(len(lines) > 5 and all("NaN" not in p.get("d") for p in lines), f"{name} has {len(lines)} lines")
     root = xml.fromstring(given["heights.svg"])
     check(len(list(root.iter("{http://www.w3.org/2000/svg}image"))) == 1 and any((t.text or "").endswith(" nm") for t in root.iter("{http://www.w3.org/2000/svg}text")), "the map of heights as SVG")
@@ -548,7 +548,7 @@ def explained(browser):
     check(len(browser.run("const n = document.getElementById('meaning'); return n.hidden ? '' : n.textContent")) > 20, "a limit is not explained")
     browser.run("document.querySelector('.limit button:last-child').click()")
     press(browser, "\ue00c")
-    check(len(browser.run("return [...document.querySelectorAll('#look .what')].map(b => b.getAttribute('aria-label'))")) >= 4, "looks are not explained")
+    check(len(browser.run("return [...document.querySelectorAll('#look .what, #making .what')].map(b => b.getAttribute('aria-label'))")) >= 4, "looks are not explained")
     browser.run("document.getElementById('slopes').click()")
     until(browser, "[...document.querySelectorAll('.key .slope')].filter(p => !p.hidden && /modulation [+−].* ± /.test(p.textContent)).length >= 2", 120, "what numbers do")
     browser.run("document.getElementById('slopes').click()")
