@@ -21,8 +21,9 @@ namespace {
 // What pixels and cells leave of a 3-D field without water, relative.
 constexpr double kOfFullField = 0.02;
 // What one skin says of others, one standard deviation: relative, over the table of
-// docs/theory/electrostatics.md; and of what is taken off the rule's pull, over the one of pixels.
-constexpr double kOfOneSkin = 0.03, kOfTakenOff = 0.15;
+// docs/theory/electrostatics.md; and of the square of what is taken off the rule's pull, over six
+// skins of flat glass and a3h600 from dry to flooded.
+constexpr double kOfOneSkin = 0.03, kOfTakenOff = 0.3;
 // What a film that lags behind the gap by an eighth of a turn leaves: the 3-D field sees the real
 // part of its thickness, the rest as on a flat stack. Relative, one standard deviation; against the
 // complex potential on rough skin at 30 Hz. Eq. electrostatics.17
@@ -109,8 +110,9 @@ FieldRatio field_ratio(std::span<const std::optional<double>> full, std::span<co
     return out;
   }
   Estimate e = ratio_estimate(solved, by_rule);
-  const double of_skins = std::hypot(kOfOneSkin * e.value, kOfTakenOff * taken_off(e.value)) /
-                          std::sqrt(static_cast<double>(solved.size()));
+  const double of_skins =
+      std::hypot(kOfOneSkin * e.value, kOfTakenOff * square(taken_off(e.value))) /
+      std::sqrt(static_cast<double>(solved.size()));
   e.se = std::max(e.se, of_skins);
   const Estimate ratio = not_below_zero(e);
   if (!corrected) {

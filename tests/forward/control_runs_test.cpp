@@ -235,7 +235,7 @@ TEST(ControlRunLaws, TheFieldsOwnPatchHasSixtyFourPixelsAtLeast) {
   EXPECT_NEAR(ratio.correction, full / p.fields.pull.mean(), 1e-6);
   // One skin has no scatter of its own, but that of others.
   const auto of_skins = [](double r, double skins) {
-    return std::hypot(0.03 * r, 0.15 * std::max(0.0, 1 - r)) / std::sqrt(skins) / r;
+    return std::hypot(0.03 * r, 0.3 * square(std::max(0.0, 1 - r))) / std::sqrt(skins) / r;
   };
   const auto error = [&](double r, double skins) {
     return std::hypot(full_field_error(r), of_skins(r, skins));

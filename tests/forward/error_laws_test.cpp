@@ -207,7 +207,7 @@ TEST(FieldRatioLaws, AreThoseOfTheSumsOfItsSkins) {
         }
         EXPECT_NEAR(r.correction, ratio, 0.01 * ratio);
         const double scatter = skins > 1 ? ratio_estimate(full, rule).se / ratio : 0;
-        const double others = std::hypot(0.03, 0.15 * std::max(0.0, 1 - ratio) / ratio);
+        const double others = std::hypot(0.03, 0.3 * square(std::max(0.0, 1 - ratio)) / ratio);
         const double of_skins = std::max(others / std::sqrt(skins), scatter);
         EXPECT_NEAR(*r.error, std::hypot(full_field_error(ratio), of_skins), 0.002);
       }

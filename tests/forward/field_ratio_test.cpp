@@ -56,7 +56,8 @@ TEST(FieldRatio, TwoSkinsCorrectTheRuleOnOthersToTheThreeDimensionalField) {
     ASSERT_TRUE(point.field_error);
     // Of R: pixels of the 3-D field, and two skins.
     const double r = point.field_correction, off = 1 - r;
-    EXPECT_LT(*point.field_error, 1.1 * std::hypot(0.02, off * off / r, 0.03 + 0.11 * off / r));
+    EXPECT_LT(*point.field_error,
+              1.1 * std::hypot(0.02, off * off / r, 0.03 + 0.3 * off * off / r));
     EXPECT_NEAR(point.electrostatic_force.value, pull, 2 * *point.field_error * pull);
     EXPECT_NEAR(point.modulation.value, exact.points[i].modulation.value,
                 2 * *point.modulation.parts.field);
@@ -85,7 +86,7 @@ TEST(FieldRatio, ASkinWithoutA3DFieldIsNoSkinWithoutAPull) {
   const FieldRatio two = field_ratio(Full{800, std::nullopt, 3200}, rule, true);
   EXPECT_NEAR(two.correction, 0.8, 1e-12);
   // Of pixels, of what they leave of the fifth that is taken off, and of two skins.
-  const double of_skins = std::hypot(0.03 * 0.8, 0.15 * 0.2) / std::sqrt(2) / 0.8;
+  const double of_skins = std::hypot(0.03 * 0.8, 0.3 * 0.04) / std::sqrt(2) / 0.8;
   EXPECT_NEAR(*two.error, std::hypot(0.02, 0.04 / 0.8, of_skins), 1e-12);
   const FieldRatio none = field_ratio(Full(3), rule, true);
   EXPECT_EQ(none.correction, 1);
