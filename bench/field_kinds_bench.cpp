@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <numeric>
@@ -17,6 +18,7 @@
 #include "design/design.h"
 #include "forward/forward.h"
 #include "forward/scene_terms.h"
+#include "numerics/statistics.h"
 #include "physics/electrostatics/full_field.h"
 
 namespace {
@@ -145,12 +147,13 @@ void print(const Case& c, const Design& design) {
   }
 }
 
-// Both fields over the same skins on 64 to 512 pixels along the patch.
+// Both fields over the same two skins on 64 to 512 pixels along the patch, and how far the ratios
+// of six skins are apart on those of the correction.
 void print_pixels(const std::string& designs) {
   constexpr int kFew = 2;
   fmt::print(
       "sample,finger,relative humidity [%],pixels,under water [%],pull of the rule [kPa],pull in "
-      "3-D [kPa],ratio\n");
+      "3-D [kPa],ratio,deviation of a skin's ratio\n");
   for (const char* sample : {"flat", "a3h600"}) {
     for (const auto& [state, humidities] : {std::pair("clean", std::vector{0.15, 0.55, 0.75, 0.85}),
                                             std::pair("natural", std::vector{0.35, 0.55, 0.65})}) {
@@ -163,20 +166,27 @@ void print_pixels(const std::string& designs) {
           Fidelity fidelity = fidelity_level("draft");
           fidelity.grid = fidelity.most_pixels = pixels;
           double wet = 0, rule = 0, full = 0;
-          for (int k = 0; k < kFew; ++k) {
+          std::vector<double> ratios;
+          for (int k = 0; k < (pixels == kPixels ? kSkins : kFew); ++k) {
             const PatchPicture p = picture_patch(scene, design.texture, fidelity, humidity, k);
             const CoveredSurface surface(p.texture, film_of(scene));
             const Wetting& water = p.fields.wetting_on;
+            const double by_rule = p.fields.pull.mean(),
+                         solved = solve_full_field({p.texture.grid, p.fields.off.gap}, &surface,
+                                                   water, field_problem(scene, humidity))
+                                      .mean_pressure;
+            ratios.push_back(solved / by_rule);
+            if (k >= kFew) continue;
             for (const std::uint8_t pixel : water.bridged)
               wet += (pixel != 0) / static_cast<double>(kFew * water.bridged.size());
-            rule += p.fields.pull.mean() / kFew;
-            full += solve_full_field({p.texture.grid, p.fields.off.gap}, &surface, water,
-                                     field_problem(scene, humidity))
-                        .mean_pressure /
-                    kFew;
+            rule += by_rule / kFew;
+            full += solved / kFew;
           }
-          fmt::print("{},{},{:.0f},{},{:.1f},{:.4g},{:.4g},{:.3f}\n", sample, state, 100 * humidity,
-                     pixels, 100 * wet, 1e-3 * rule, 1e-3 * full, full / rule);
+          fmt::print("{},{},{:.0f},{},{:.1f},{:.4g},{:.4g},{:.3f},{}\n", sample, state,
+                     100 * humidity, pixels, 100 * wet, 1e-3 * rule, 1e-3 * full, full / rule,
+                     pixels == kPixels
+                         ? fmt::format("{:.3f}", mean_estimate(ratios).se * std::sqrt(kSkins))
+                         : "");
           std::fflush(stdout);
         }
       }

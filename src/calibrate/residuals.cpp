@@ -11,6 +11,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/check.h"
 #include "base/constants.h"
 #include "base/files.h"
 #include "config/writer.h"
@@ -381,6 +382,8 @@ std::vector<Residuals::Friction> Residuals::frictions(const Finger& finger,
         }
         return out;
       });
+  PAPILLA_CHECK(flat.size() == 2 * calibration_.data.size() * (1 + moved),
+                "every skin is left out once");
   auto next = flat.begin();
   const auto take = [&] {
     Force out{*next++, {}};
