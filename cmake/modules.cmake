@@ -1,16 +1,16 @@
-# papilla_unity(TARGET FOLDER...): rooms that do not compute in loops are compiled as one file each, so that what they all
-# include is read once; the optimisers too, whose files make the same matrices. Physics and the model keep their files: there
-# one changes at a time, and is optimised hard.
+# papilla_unity(TARGET FOLDER...): each room is compiled as one file, so that what its files all include is read once (half of the
+# compiler's time, or less); preset dev compiles file by file, for whoever changes one at a time. Files of these rooms have names
+# of their own that others have too, or are compiled with definitions of their own.
+set(PAPILLA_ROOMS_BY_FILE src/base src/numerics geometry/io)
 function(papilla_unity name)
   if(NOT PAPILLA_UNITY)
     return()
   endif()
   set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  foreach(folder optim src/config src/design src/estimate src/published src/search src/lab src/rank src/calibrate src/claims src/measure
-          src/fabricate src/cases src/metrics src/report src/studio src/cli)
-    if(folder IN_LIST ARGN)
+  foreach(folder ${ARGN})
+    if(NOT folder IN_LIST PAPILLA_ROOMS_BY_FILE)
       file(GLOB found CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
-      cmake_path(GET folder FILENAME room)
+      string(REPLACE "/" "_" room ${folder})
       set_source_files_properties(${found} PROPERTIES UNITY_GROUP ${room})
     endif()
   endforeach()
@@ -46,6 +46,7 @@ function(papilla_library name)
                         nlohmann_json::nlohmann_json)
   add_library(papilla_talking OBJECT ${talking})
   target_compile_options(papilla_talking PRIVATE ${PAPILLA_TALKING_OPTIONS})
+  target_compile_definitions(papilla_talking PRIVATE PAPILLA_INSIDE)  # include/papilla/names.h
   add_library(papilla_looping OBJECT ${looping})
   target_compile_options(papilla_looping PRIVATE -U_GLIBCXX_ASSERTIONS)
   add_library(${name} ${computing} $<TARGET_OBJECTS:papilla_talking> $<TARGET_OBJECTS:papilla_looping>)

@@ -11,6 +11,7 @@ target_link_libraries(papilla_python PRIVATE papilla_options libpapilla)
 target_include_directories(papilla_python PRIVATE ${CMAKE_SOURCE_DIR}/include)
 if(PAPILLA_UNITY)
   target_precompile_headers(papilla_python PRIVATE ${CMAKE_SOURCE_DIR}/python/bindings/convert.h)
+  set_target_properties(papilla_python PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
 endif()
 # One module for every interpreter of this version: no name of the machine in it.
 target_compile_options(papilla_python PRIVATE ${PAPILLA_TALKING_OPTIONS})

@@ -321,10 +321,6 @@ class PatchSolver {
         terms.water, &terms.field, out);
   }
 
-  static double mean(const std::vector<double>& v) {
-    return v.empty() ? 0 : sum(v) / static_cast<double>(v.size());
-  }
-
   // A patch whose gap is closed by what it attracts with.
   struct Known {
     std::vector<double> applied;  // tractions that closed the gap [Pa]

@@ -30,8 +30,6 @@ constexpr double kOfMoves = 0.25;
 // What the mean counts beside the places: it closes the gap everywhere.
 constexpr double kMeanWeight = 100;
 
-double mean(const std::vector<double>& v) { return sum(v) / static_cast<double>(v.size()); }
-
 double mean_size(const std::vector<double>& v) {
   return sum_over(v.size(), [&](auto at) { return larger(at(v), -at(v)); }) /
          static_cast<double>(v.size());

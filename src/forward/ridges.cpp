@@ -10,7 +10,7 @@
 namespace papilla::forward {
 namespace {
 
-constexpr double kPatch = 12e-6;  // where the spectrum of the ridges meets that of the skin
+constexpr double kSpectraMeet = 12e-6;  // where the spectrum of the ridges meets that of the skin
 constexpr int kRings = 3;
 // Pressures of the table over the mean one: below the outermost ring, up to gaps that have closed.
 constexpr double kLowest = 0.03, kHighest = 3000;
@@ -126,7 +126,7 @@ std::shared_ptr<const RidgeGaps> ridge_gaps(const Finger& finger, double q_patch
 
 double capacitive_gap(const Finger& finger, double ridge_pressure, double dielectric,
                       double relative_humidity, const std::vector<PressureRing>& rings) {
-  constexpr double kPatchNumber = 2 * kPi / kPatch;
+  constexpr double kPatchNumber = 2 * kPi / kSpectraMeet;
   // A smooth pin lies on the surface.
   if (finger.macro.ridge_rms <= 0 && !skin_is_rough(finger.skin, kPatchNumber)) return 0;
   const double h0 = dielectric + finger.skin_layer(relative_humidity);
@@ -146,8 +146,9 @@ double compressed_share(const Finger& finger, double compliance, const CarryingS
                         double relative_humidity) {
   const double nominal = ridge_load(finger.macro, finger.load, relative_humidity).mean_pressure;
   if (!(nominal > 0) || !(compliance > 0) || finger.macro.ridge_rms <= 0) return rigid.share;
-  const MeanField all = ridge_field(finger, 2 * kPi / kPatch, relative_humidity);
-  const PowerSpectrum ridges = all.spectrum().between(all.spectrum().lowest(), 2 * kPi / kPatch);
+  const MeanField all = ridge_field(finger, 2 * kPi / kSpectraMeet, relative_humidity);
+  const PowerSpectrum ridges =
+      all.spectrum().between(all.spectrum().lowest(), 2 * kPi / kSpectraMeet);
   const GapDistribution gaps = MeanField(ridges, all.solid()).gaps(nominal);
   // A patch at a few nanometres touches with its skin.
   constexpr double kTouches = 5e-9;

@@ -6,6 +6,7 @@
 
 #include "base/constants.h"
 #include "forward/scene_terms.h"
+#include "numerics/reductions.h"
 
 namespace papilla::forward {
 namespace {
@@ -14,12 +15,6 @@ constexpr double kHamaker = 5e-20;          // [J] water, glass, keratin: 3.7e-2
 constexpr double kClosestApproach = 3e-10;  // [m] of atoms
 constexpr double kMolarVolume = 1.8e-5;     // [m^3/mol] of water
 constexpr double kThermal = 2479;           // R T at 25 C [J/mol]
-
-double mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (double v : values) sum += v;
-  return values.empty() ? 0 : sum / static_cast<double>(values.size());
-}
 
 }  // namespace
 

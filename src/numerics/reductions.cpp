@@ -13,6 +13,10 @@ double sum(std::span<const double> a) {
   return sum_over(a.size(), [&](auto at) { return at(a); });
 }
 
+double mean(std::span<const double> a) {
+  return a.empty() ? 0 : sum(a) / static_cast<double>(a.size());
+}
+
 double dot(std::span<const double> a, std::span<const double> b) {
   return sum_over(a.size(), [&](auto at) { return at(a) * at(b); });
 }

@@ -8,6 +8,7 @@
 namespace papilla::numerics {
 
 double sum(std::span<const double> a);
+double mean(std::span<const double> a);                            // of none: 0
 double dot(std::span<const double> a, std::span<const double> b);  // of equal length
 double least(std::span<const double> a);                           // of none: infinity
 double largest(std::span<const double> a);                         // of none: -infinity

@@ -14,7 +14,7 @@ namespace {
 // the expected regret is .083, n touches lower it by s' phi(1/s') - Phi(-1/s'), s'^2 = 1 / (1 +
 // s^2/n), and change the choice with probability Phi(-1/s').
 std::optional<StopReason> after_one_touch(double s, double small) {
-  Ensemble e = linear_ensemble(1500, {{1.0}}, {{1.0}, {0.0}});
+  Ensemble e = linear_ensemble(500, {{1.0}}, {{1.0}, {0.0}});
   for (double& u : e.worth[0]) u += 1;
   const Kernels k = kernels_of(e);
   const Instrument instrument = plain_instrument(s);

@@ -11,6 +11,7 @@
 #include "base/random.h"
 #include "forward/appearance.h"
 #include "geometry/roughness.h"
+#include "numerics/fft.h"
 #include "tests/support/glass.h"
 
 namespace papilla::tests::optics_test {
@@ -129,37 +130,38 @@ TEST(PhaseScreen, MatchedFillRemovesHaze) {
 }
 
 TEST(PhaseScreen, GivesTheSeriesOfGaussianRoughness) {
-  // Correlation exp(-r^2/L^2): filter white noise with exp(-r^2/(L^2/2)), by sums of its waves.
+  // Correlation exp(-r^2/L^2): a sum of waves that a spectrum of that shape draws.
   constexpr int kPixels = 256, kWaves = 400;
   // At this side 213 orders lie inside the cone, whose area is 212.7 orders: no bias of its rim.
   constexpr double kSide = 103.75e-6, kLength = 4e-6, kWavelength = 550e-9;
+  const auto transform = numerics::Fft2d::shared(kPixels, kPixels);
   for (const double rms : {80e-9, 200e-9}) {
     double specular = 0, haze = 0;
     constexpr int kDraws = 24;
     for (int draw = 0; draw < kDraws; ++draw) {
       RandomStream random(7, "optics test", static_cast<std::uint64_t>(draw));
-      Heightmap h{{kPixels, kPixels, kSide, kSide}, {}};
-      h.z.assign(h.grid.size(), 0.0);
+      numerics::SpectrumArray spectrum(transform->spectrum_size());
+      numerics::RealArray heights(transform->real_size());
       for (int w = 0; w < kWaves; ++w) {
         // The spectrum is Gaussian with variance 2/L^2 each way; periodic: whole numbers of waves.
-        const int m = static_cast<int>(
-            std::lround(random.normal() * std::sqrt(2.0) / kLength * kSide / (2 * kPi)));
-        const int n = static_cast<int>(
-            std::lround(random.normal() * std::sqrt(2.0) / kLength * kSide / (2 * kPi)));
-        const double phase = 2 * kPi * random.uniform();
-        const double amplitude = rms * std::sqrt(2.0 / kWaves);
-        std::vector<double> cx, sx;
-        for (int x = 0; x < kPixels; ++x) {
-          cx.push_back(std::cos(2 * kPi * m * x / kPixels + phase));
-          sx.push_back(std::sin(2 * kPi * m * x / kPixels + phase));
-        }
-        for (int y = 0; y < kPixels; ++y) {
-          const double c = amplitude * std::cos(2 * kPi * n * y / kPixels);
-          const double s = amplitude * std::sin(2 * kPi * n * y / kPixels);
-          for (int x = 0; x < kPixels; ++x)
-            h(x, y) += c * cx[static_cast<std::size_t>(x)] - s * sx[static_cast<std::size_t>(x)];
-        }
+        const auto waves = [&] {
+          return static_cast<int>(
+              std::lround(random.normal() * std::sqrt(2.0) / kLength * kSide / (2 * kPi)));
+        };
+        const int m = waves(), n = waves();
+        const std::complex<double> wave =
+            std::polar(rms / std::sqrt(2.0 * kWaves), 2 * kPi * random.uniform());
+        // A real wave is a pair of conjugates; the transform keeps those of m >= 0.
+        const auto add = [&](int x, int y, std::complex<double> a) {
+          if (x >= 0)
+            spectrum[static_cast<std::size_t>((y + kPixels) % kPixels * transform->half() + x)] +=
+                a;
+        };
+        add(m, n, wave);
+        add(-m, -n, std::conj(wave));
       }
+      transform->inverse(spectrum.data(), heights.data());
+      const Heightmap h{{kPixels, kPixels, kSide, kSide}, {heights.begin(), heights.end()}};
       const Optics o = phase_screen(h, {1.5, 1}, {{kWavelength}});
       specular += o.spectrum[0].specular / kDraws;
       haze += o.haze / kDraws;

@@ -38,7 +38,7 @@ TEST(Rank, ArrangementsOfOneRoughnessAreNotToldApartByTheirHaze) {
     designs.push_back(d);
   }
   RankOptions options = by("haze:low");
-  options.max_skins = 12;
+  options.max_skins = 8;
   const Ranking r = ranking_of(designs, options);
   for (const RankedCandidate& c : r.states.front().candidates) {
     EXPECT_LT(c.p_best, 0.97) << c.index;

@@ -150,11 +150,12 @@ TEST(Report, OfARankingIsDrawnAndTheSameByTheCommand) {
   for (const auto& [by, folder] :
        {std::pair("friction:low,adhesion:low", "two"),
         std::pair("friction:low,adhesion:low,compliance:high --weights 2,1,1", "three")}) {
-    const Outcome run = place.run("-q rank " + designs + "fine.toml " + designs + "hard.toml " +
-                                  designs + "sparse.toml --by " + by +
-                                  " --state clean,natural --set accuracy.level=draft --max-skins "
-                                  "12 --out " +
-                                  folder);
+    const Outcome run =
+        place.run("-q rank " + designs + "fine.toml " + designs + "hard.toml " + designs +
+                  "sparse.toml --by " + by +
+                  " --state clean,natural --set accuracy.level=draft --set accuracy.grid=32 "
+                  "--max-skins 12 --out " +
+                  folder);
     ASSERT_EQ(run.status, 0) << run.err;
     const std::string page = std::string(folder) + "/report.html";
     expect_drawn(place, page);
@@ -182,11 +183,11 @@ hold_out = ["M2"]
 iterations = 1
 [sampling]
 level = "draft"
-grid = 64
+grid = 32
 skins = 4
 [check]
 level = "draft"
-grid = 64
+grid = 32
 skins = 4
 first_skin = 70
 [parameters]

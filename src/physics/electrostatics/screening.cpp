@@ -160,7 +160,7 @@ class WaterDistance {
   // asks for one as far, or all know a nearer one.
   template <bool kPotential, class At>
   auto nearest_row(const At& at, int iy) {
-    constexpr int kLooks = 4;  // rows between two looks at what the pixels know
+    constexpr int kRows = 4;  // rows between two looks at what the pixels know
     auto nearest = at(&along_[grid_.index(0, iy)]), potential = nearest;
     if constexpr (kPotential) potential = at(&beside_[grid_.index(0, iy)]);
     const int rows = static_cast<int>(largest_of(at(&reach_[grid_.index(0, iy)])));
@@ -176,7 +176,7 @@ class WaterDistance {
         potential = chosen(nearer < nearest, of_row, potential);
       }
       nearest = smaller(nearer, nearest);
-      if (j % kLooks == 0) farthest = largest_of(nearest);
+      if (j % kRows == 0) farthest = largest_of(nearest);
     }
     if constexpr (kPotential) at.store(&potential_[grid_.index(0, iy)], potential);
     return nearest;

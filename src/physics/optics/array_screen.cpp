@@ -7,15 +7,12 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "physics/optics/apertures.h"
 #include "physics/optics/order_screen.h"
 #include "physics/optics/sparkle.h"
 
 namespace papilla::optics {
 namespace {
-
-// 2 J1(x)/x, and sin(x)/x.
-double airy(double x) { return x < 1e-6 ? 1 - x * x / 8 : 2 * std::cyl_bessel_j(1, x) / x; }
-double sinc(double x) { return x < 1e-6 ? 1 - x * x / 6 : std::sin(x) / x; }
 
 // The cell that repeats: of lines a strip as narrow as no order along it asks.
 Grid cell_of(const FeatureArray& a) {

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/constants.h"
+#include "physics/optics/apertures.h"
 #include "physics/optics/optics.h"
 
 namespace papilla::optics {
@@ -75,9 +76,6 @@ std::vector<FaceShares> face_shares(double open, double depth, Features features
   }
   return out;
 }
-
-double airy(double x) { return x < 1e-6 ? 1 - x * x / 8 : 2 * std::cyl_bessel_j(1, x) / x; }
-double sinc(double x) { return x < 1e-6 ? 1 - x * x / 6 : std::sin(x) / x; }
 
 // Share of the transmitted light that disorder sends beyond the cone: the layer's phase follows the
 // local share of features, whose fluctuation has the spectrum of independent errors. Eq. optics.7

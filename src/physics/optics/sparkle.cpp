@@ -5,15 +5,13 @@
 #include <complex>
 
 #include "base/constants.h"
+#include "physics/optics/apertures.h"
 #include "physics/optics/transform.h"
 
 namespace papilla::optics {
 namespace {
 
 using Complex = std::complex<double>;
-
-double airy(double x) { return x < 1e-6 ? 1 - x * x / 8 : 2 * std::cyl_bessel_j(1, x) / x; }
-double sinc(double x) { return std::abs(x) < 1e-6 ? 1 - x * x / 6 : std::sin(x) / x; }
 
 // What subpixel and pupil leave of a wave of the pattern, its power. Eq. optics.13
 double passed(double qx, double qy, const Panel& p) {

@@ -10,13 +10,11 @@
 #include "base/cache.h"
 #include "base/constants.h"
 #include "geometry/grid.h"
+#include "physics/optics/apertures.h"
 #include "physics/optics/transform.h"
 
 namespace papilla::optics {
 namespace {
-
-double airy(double x) { return x < 1e-6 ? 1 - x * x / 8 : 2 * std::cyl_bessel_j(1, x) / x; }
-double sinc(double x) { return std::abs(x) < 1e-6 ? 1 - x * x / 6 : std::sin(x) / x; }
 
 // Fourier coefficient of the inside of the features.
 double inside_share(const LatticeCell& c, const LatticeSlice& s, int m, int n) {
