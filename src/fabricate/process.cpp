@@ -59,16 +59,27 @@ std::vector<std::pair<double, double>> neighbours(const FeatureArray& array) {
   return out;
 }
 
-// Where a falling exposure is 1/2, between two places.
+// Where a falling exposure is 1/2, between two places: by regula falsi, an end that stays counting
+// half (Illinois).
 template <class Light>
 double edge_between(double low, double high, const Light& light) {
-  if (light(low) < 0.5) return low;
-  constexpr int kHalvings = 40;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (light(middle) < 0.5 ? high : low) = middle;
+  constexpr int kMostSteps = 60;
+  constexpr double kNear = 1e-14;  // [m]
+  double at_low = light(low) - 0.5, at_high = light(high) - 0.5;
+  if (at_low <= 0) return low;
+  if (at_high >= 0) return high;
+  double edge = low, before = high;
+  bool last_bright = false;
+  for (int i = 0; i < kMostSteps && std::abs(edge - before) > kNear; ++i) {
+    before = std::exchange(edge, (low * at_high - high * at_low) / (at_high - at_low));
+    const double at = light(edge) - 0.5;
+    const bool bright = at > 0;
+    (bright ? low : high) = edge;
+    (bright ? at_low : at_high) = at;
+    if (i > 0 && bright == last_bright) (bright ? at_high : at_low) *= 0.5;
+    last_bright = bright;
   }
-  return 0.5 * (low + high);
+  return edge;
 }
 
 double exposed_line(const FeatureArray& mask, double blur, double high) {
