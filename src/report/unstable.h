@@ -8,7 +8,7 @@
 
 namespace papilla::report {
 
-// " Its place does not hold: 5 of 13 checks (equilibrium: design 02 is better). The alternative
+// " Its place holds in 5 of 13 checks only (equilibrium: design 02 is better). The alternative
 // ..."; "" where it holds, or was not checked. place: among the finalists.
 std::string unstable_text(const ResultFiles& files, std::size_t place);
 
