@@ -371,6 +371,8 @@ class CalibrationReader {
     if (given.factor && given.sd) return "a prior has one width: `factor` or `sd`";
     if (given.prior != (given.factor || given.sd))
       return "a prior needs its width: `factor` or `sd`";
+    if (given.sd && fit.prior_sd == 0)
+      return "expected `sd` above 0: what is known exactly stands in the finger's file";
     if (fit.logarithmic && fit.low <= 0) return "a prior by a factor needs low above 0";
     if (fit.start < fit.low || fit.start > fit.high) {
       return fmt::format("the finger's {} lies outside the bounds",

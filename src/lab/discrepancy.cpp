@@ -51,6 +51,9 @@ double misfit(const Ensemble& ensemble, const Evidence& evidence) {
 
 }  // namespace
 
+double Discrepancy::change() const { return std::expm1(shift); }
+double Discrepancy::change_deviation() const { return std::exp(shift) * deviation; }
+
 Discrepancies discrepancies(const Ensemble& ensemble, const Evidence& evidence,
                             const std::vector<Somewhere>& places, double size) {
   Discrepancies out;

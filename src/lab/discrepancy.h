@@ -20,6 +20,9 @@ struct Discrepancy {
   std::string where;
   double probability = 0;           // that the model is wrong there, and nowhere else
   double shift = 0, deviation = 0;  // of the logarithm of friction there, if so
+  // The same as shares of the friction: 0.5 is half more.
+  double change() const;
+  double change_deviation() const;
 };
 
 struct Discrepancies {

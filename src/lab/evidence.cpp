@@ -7,6 +7,7 @@
 #include "base/check.h"
 #include "base/constants.h"
 #include "base/random.h"
+#include "numerics/statistics.h"
 #include "optim/posterior.h"
 
 namespace papilla::lab {
@@ -17,6 +18,8 @@ constexpr int kPairs = 4;
 // Added to variances, a share of them: readings without scatter of their own would else make the
 // covariance singular.
 constexpr double kJitter = 1e-12;
+// Of the range that a quantile lies in, which is some deviations wide: to 1e-11 of it.
+constexpr int kHalvings = 36;
 
 // What the kernels leave open of the worth of the designs: its root, lower triangle.
 Eigen::MatrixXd worth_root(const Kernels& kernels, const Evidence& evidence) {
@@ -91,6 +94,29 @@ void Evidence::add(const Observation& reading, double y) { add(reading, y, true)
 const std::vector<double>& Evidence::add_ahead(const Observation& reading) {
   add(reading, 0, false);
   return residuals_.back();
+}
+
+ExpectedReading Evidence::expected(const Observation& reading) const {
+  Evidence with = *this;
+  with.add_ahead(reading);
+  ExpectedReading out{{}, weights(), with.factor_.row(size()).back()};
+  // The whitened residual of a reading of 0 is that far below what its member expects.
+  for (const double r : with.residuals_.back()) out.means.push_back(-out.deviation * r);
+  return out;
+}
+
+double ExpectedReading::quantile(double p) const {
+  const auto [least, largest] = std::minmax_element(means.begin(), means.end());
+  const double beyond = deviation * std::abs(normal_quantile(p));
+  double low = *least - beyond, high = *largest + beyond;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = (low + high) / 2;
+    double below = 0;
+    for (std::size_t m = 0; m < means.size(); ++m)
+      below += weights[m] * normal_cdf((middle - means[m]) / deviation);
+    (below < p ? low : high) = middle;
+  }
+  return (low + high) / 2;
 }
 
 std::vector<double> Evidence::log_likelihoods() const {

@@ -26,6 +26,16 @@ class GrowingFactor {
   std::vector<std::vector<double>> rows_;
 };
 
+// What belief expects of a reading that is yet to be made, after those that were: the logarithm of
+// its friction [N], normal about what each member expects. Eq. lab.2
+struct ExpectedReading {
+  std::vector<double> means, weights;  // of the members
+  double deviation = 0;  // common to them: kernels, skins and what the instrument scatters by
+
+  // p: above 0, below 1
+  double quantile(double p) const;
+};
+
 class Evidence {
  public:
   // Both outlive this.
@@ -36,6 +46,7 @@ class Evidence {
   // One that is yet to be made. If member t is true, its residual at member m is
   // z + ahead(m) - ahead(t), z standard normal; returned as the residuals of a reading of 0.
   const std::vector<double>& add_ahead(const Observation& reading);
+  ExpectedReading expected(const Observation& reading) const;
 
   std::size_t size() const { return observations_.size(); }
   const std::vector<Observation>& observations() const { return observations_; }

@@ -14,11 +14,13 @@ constexpr int kEnough = 10;  // differences: a deviation is then known to a quar
 
 struct Mean {
   double sum = 0, squares = 0;
+  double stated = 0;  // variances that the values state of themselves, summed
   int count = 0;
 
-  void add(double x) {
+  void add(double x, double own = 0) {
     sum += x;
     squares += square(x);
+    stated += own;
     ++count;
   }
   double mean() const { return sum / count; }
@@ -28,15 +30,16 @@ struct Mean {
 using Days = std::map<std::string, Mean>;     // of a finger: its readings
 using Fingers = std::map<std::string, Days>;  // of a design, conditions, off or on
 
-// The means of the days of a finger, and the sum of 1/n over their readings.
+// The means of the days of a finger, and the variances that they have by their readings, summed.
+// of_reading: that of each beside what it states itself.
 struct DayMeans {
   Mean of;
-  double inverse = 0;
+  double within = 0;
 
-  explicit DayMeans(const Days& days) {
+  DayMeans(const Days& days, double of_reading) {
     for (const auto& [day, readings] : days) {
       of.add(readings.mean());
-      inverse += 1.0 / readings.count;
+      within += (of_reading + readings.stated / readings.count) / readings.count;
     }
   }
 };
@@ -97,8 +100,9 @@ Gauge gauge_of(const std::vector<FrictionReading>& readings) {
   std::map<std::string, Fingers> cells;
   for (const FrictionReading& r : readings) {
     for (const bool on : {false, true}) {
-      const double force = on ? r.on : r.off;
-      if (force > 0) cells[cell_of(r, on)][r.finger][r.day].add(std::log(force));
+      const double force = on ? r.on : r.off, sd = on ? r.on_sd : r.off_sd;
+      if (force > 0)
+        cells[cell_of(r, on)][r.finger][r.day].add(std::log(force), square(sd / force));
     }
   }
   Gauge out;
@@ -106,15 +110,15 @@ Gauge gauge_of(const std::vector<FrictionReading>& readings) {
   Joined joined_days, joined_fingers;
   for (const auto& [cell, of_cell] : cells) {
     for (const auto& [finger, of_finger] : of_cell) {
-      for (const auto& [day, of_day] : of_finger) repeats.add(of_day, 0);
+      for (const auto& [day, of_day] : of_finger) repeats.add(of_day, of_day.stated);
     }
   }
   out.repeatability = repeats.spread(repeats.freedom);
   const double of_reading = square(out.repeatability.deviation);
   for (const auto& [cell, of_cell] : cells) {
     for (const auto& [finger, of_finger] : of_cell) {
-      const DayMeans means(of_finger);
-      days.add(means.of, of_reading * means.inverse);
+      const DayMeans means(of_finger, of_reading);
+      days.add(means.of, means.within);
       for (const auto& [day, of_day] : of_finger)
         joined_days.join(day_of(finger, of_finger.begin()->first), day_of(finger, day));
     }
@@ -126,9 +130,9 @@ Gauge gauge_of(const std::vector<FrictionReading>& readings) {
     double within = 0;
     for (const auto& [finger, of_finger] : of_cell) {
       joined_fingers.join(of_cell.begin()->first, finger);
-      const DayMeans means(of_finger);
+      const DayMeans means(of_finger, of_reading);
       means_of_fingers.add(means.of.mean());
-      within += (of_day + of_reading * means.inverse / means.of.count) / means.of.count;
+      within += (of_day + means.within / means.of.count) / means.of.count;
     }
     fingers.add(means_of_fingers, within);
   }

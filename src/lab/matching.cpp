@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <tuple>
 
 #include "base/constants.h"
 #include "base/error.h"
@@ -20,16 +21,26 @@ namespace {
 // What is set at an instrument comes out so near: the reading is taken as of what was planned.
 constexpr double kHumidityBand = 0.015;  // of relative humidity, absolute
 constexpr double kLoadBand = 0.1, kVoltageBand = 0.02, kFrequencyBand = 0.02;  // shares
-// A record's own load beyond this share of the planned one is another experiment.
-constexpr double kRecordLoadBand = 0.25;
 // Of what friction is corrected by from load to load, what is not known of the correction.
 constexpr double kCorrectionError = 0.5;
-// A trace's own conditions are rounded so where nothing was planned.
-constexpr double kLoadStep = 5e-3, kHumidityStep = 0.01, kVoltageStep = 1;
-// Beyond these a number in the head of a record is a slip, as in tables.
+// Beyond these a number of a record is a slip, as in tables.
 constexpr double kMostRepeats = 1e6, kHighestFrequency = 1e9;
+constexpr double kLeastLoad = 1e-6, kLargestLoad = 100;  // [N]
 
-double rounded(double value, double step) { return step * std::round(value / step); }
+// Conditions that no plan has set, as they were measured, are rounded so; a load to two digits
+// where these are finer, which is by a twentieth at most.
+struct Steps {
+  double load = 0, humidity = 0, voltage = 0;  // 0: taken as they are
+};
+constexpr Steps kOfRecords{5e-3, 0.01, 1};
+
+double rounded(double value, double step) {
+  return step > 0 ? step * std::round(value / step) : value;
+}
+
+double rounded_load(double load, double step) {
+  return rounded(load, std::min(step, std::pow(10, std::floor(std::log10(load)) - 1)));
+}
 
 // How far a value is from what was wanted, in widths of a band; infinite beyond it.
 double distance(double value, double wanted, double absolute, double share) {
@@ -38,12 +49,12 @@ double distance(double value, double wanted, double absolute, double share) {
   return off <= band ? off / band : kInfinity;
 }
 
-// The nearest of some values, where it is near enough; the first among equals. meaning: what a
-// value stands for.
+// The nearest of some values, where it is near enough; the first among equals. otherwise: what is
+// taken where none is. meaning: what a value stands for.
 template <class Meaning = std::identity>
 double snapped(double value, const std::vector<double>& known, double absolute, double share,
-               Meaning meaning = {}) {
-  double out = value, least = kInfinity;
+               double otherwise, Meaning meaning = {}) {
+  double out = otherwise, least = kInfinity;
   for (const double k : known) {
     const double off = distance(meaning(value), meaning(k), absolute, share);
     if (off >= least) continue;
@@ -55,8 +66,9 @@ double snapped(double value, const std::vector<double>& known, double absolute, 
 
 class Matcher {
  public:
-  Matcher(const MatchContext& context, const TellOptions& options, const std::string& file)
-      : context_(context), options_(options), file_(file) {}
+  Matcher(const MatchContext& context, const TellOptions& options, const std::string& file,
+          const Steps& steps = {})
+      : context_(context), options_(options), file_(file), steps_(steps) {}
 
   std::optional<FrictionReading> match(const MeasuredRow& row) {
     FrictionReading out;
@@ -160,14 +172,14 @@ class Matcher {
     const Conditions& planned = wanted.at;
     const Conditions is = over(row, planned, wanted.design);
     if (!near(is, planned, wanted.design)) return as_measured(id, row, is, wanted.design);
-    as_planned_ += !(is == planned);
+    as_planned_ += !same_rounded(is, planned, row);
     return planned;
   }
 
   // Under conditions that were not planned: an experiment of its own. id: of what was planned.
   Conditions as_measured(const std::string& id, const MeasuredRow& row, const Conditions& is,
                          std::size_t design) {
-    const Conditions out = snapped_to_candidates(is, design);
+    const Conditions out = snapped_to_candidates(is, row, design);
     Conditions shown = out;
     if (shown.driven()) shown.frequency = frequency_of(out, design);
     const std::string known = id + " at " + text(shown);
@@ -177,13 +189,28 @@ class Matcher {
     return out;
   }
 
-  Conditions snapped_to_candidates(Conditions at, std::size_t design) const {
+  // What a row measured of conditions, rounded; the rest is as it was meant.
+  Conditions as_rounded(Conditions at, const MeasuredRow& row) const {
+    if (row.load) at.load = rounded_load(at.load, steps_.load);
+    if (row.relative_humidity)
+      at.relative_humidity = rounded(at.relative_humidity, steps_.humidity);
+    if (row.voltage) at.voltage = rounded(at.voltage, steps_.voltage);
+    return at;
+  }
+  bool same_rounded(const Conditions& is, const Conditions& wanted, const MeasuredRow& row) const {
+    return as_rounded(is, row) == as_rounded(wanted, row);
+  }
+
+  Conditions snapped_to_candidates(Conditions at, const MeasuredRow& row,
+                                   std::size_t design) const {
     const CandidateConditions& c = context_.file.conditions;
-    at.load = snapped(at.load, c.load, 0, kLoadBand);
-    at.relative_humidity = snapped(at.relative_humidity, c.humidity, kHumidityBand, 0);
-    at.voltage = snapped(at.voltage, c.voltage, 0, kVoltageBand);
+    const Conditions own = as_rounded(at, row);
+    at.load = snapped(at.load, c.load, 0, kLoadBand, own.load);
+    at.relative_humidity =
+        snapped(at.relative_humidity, c.humidity, kHumidityBand, 0, own.relative_humidity);
+    at.voltage = snapped(at.voltage, c.voltage, 0, kVoltageBand, own.voltage);
     if (at.driven())
-      at.frequency = snapped(at.frequency, carrier_frequencies(c), 0, kFrequencyBand,
+      at.frequency = snapped(at.frequency, carrier_frequencies(c), 0, kFrequencyBand, at.frequency,
                              [&](double frequency) { return carrier(frequency, design); });
     return at;
   }
@@ -262,7 +289,7 @@ class Matcher {
                                           "`# state: wet` or `# carrier: 5 kHz`",
                                           field, open));
     const Conditions is = over(row, meant.front(), of);
-    as_planned_ += !planned.empty() && !(is == meant.front());
+    as_planned_ += !planned.empty() && !same_rounded(is, meant.front(), row);
     out.experiment.at = planned.empty() ? as_measured(field, row, is, of) : meant.front();
   }
 
@@ -311,7 +338,7 @@ class Matcher {
                             : row.frequency.value_or(known.front());
     }
     at.state = needed(row.state, finger_states(c), "state");
-    out.experiment = {index, snapped_to_candidates(at, index)};
+    out.experiment = {index, snapped_to_candidates(at, row, index)};
   }
 
   // By its name in the lab, as a plan writes that, or by the file that a table names.
@@ -335,6 +362,7 @@ class Matcher {
   const MatchContext& context_;
   const TellOptions& options_;
   std::string file_;
+  Steps steps_;
   int line_ = 0, as_planned_ = 0;
   std::vector<std::string> as_measured_;
   std::vector<Problem> problems_;
@@ -424,6 +452,38 @@ void by_head(const Trace& trace, const std::string& file, MeasuredRow& row) {
   if (!problems.empty()) throw InputError(problems);
 }
 
+// What no finger does, as in tables, and options that name another experiment or field than the
+// record, which is of one alone. Throws InputError with all of it.
+void check_record(const MeasuredRow& row, const TellOptions& options, const std::string& file) {
+  std::vector<Problem> problems = row_problems(row, file);
+  const auto problem = [&](const char* key, const std::string& message) {
+    problems.push_back({file, 0, 0, key, message});
+  };
+  if (row.relative_humidity) {
+    const std::string wrong = humidity_problem(*row.relative_humidity);
+    if (!wrong.empty()) problem("humidity", wrong);
+  }
+  if (!(*row.load >= kLeastLoad && *row.load <= kLargestLoad))
+    problem("normal", fmt::format("the finger pressed with {} N, outside {:g} to {:g} N: is the "
+                                  "force in another unit?",
+                                  significant(*row.load, 3), kLeastLoad, kLargestLoad));
+  if (row.off && row.on && rubs_less_driven(row))
+    problem("voltage",
+            fmt::format("under voltage the finger rubs with {} mN, without it with {} mN, less by "
+                        "more than touches scatter: is the voltage in the column while the drive "
+                        "is on?",
+                        significant(1e3 * *row.on, 3), significant(1e3 * *row.off, 3)));
+  for (const auto& [key, in_record, in_options] :
+       {std::tuple("experiment", row.experiment, options.experiment),
+        std::tuple("field", row.field, options.field)}) {
+    if (in_record.empty() || in_options.empty() || in_record == in_options) continue;
+    problem(key, fmt::format("{} by the record's head or name, {} by --{}: leave the option out, "
+                             "or correct the record",
+                             in_record, in_options, key));
+  }
+  if (!problems.empty()) throw InputError(problems);
+}
+
 // The friction at the planned load, where the finger pressed a little otherwise: in proportion.
 void to_load(FrictionReading& r, double load, std::vector<std::string>& notes) {
   const double by = r.experiment.at.load / load;
@@ -475,10 +535,9 @@ Matched match_trace(const Trace& trace, const TraceReading& reading, const Match
   MeasuredRow row;
   by_name(file, context, row);
   by_head(trace, file, row);
-  row.load = rounded(reading.load, kLoadStep);
-  if (reading.relative_humidity)
-    row.relative_humidity = rounded(*reading.relative_humidity, kHumidityStep);
-  if (reading.on_sd > 0) row.voltage = rounded(reading.voltage, kVoltageStep);
+  row.load = reading.load;
+  if (reading.relative_humidity) row.relative_humidity = reading.relative_humidity;
+  if (reading.on_sd > 0) row.voltage = reading.voltage;
   if (reading.off_sd > 0) {
     row.off = reading.off;
     row.off_sd = reading.off_sd;
@@ -487,15 +546,11 @@ Matched match_trace(const Trace& trace, const TraceReading& reading, const Match
     row.on = reading.on;
     row.on_sd = reading.on_sd;
   }
-  Matcher matcher(context, options, file);
+  check_record(row, options, file);
+  Matcher matcher(context, options, file, kOfRecords);
   Matched out;
   auto found = matcher.match(row);
   matcher.tell_problems();
-  if (std::abs(found->experiment.at.load / reading.load - 1) > kRecordLoadBand)
-    throw InputError({Problem{
-        file, 0, 0, "normal",
-        fmt::format("the finger pressed with {} N, its experiment is at {} N",
-                    significant(reading.load, 3), significant(found->experiment.at.load, 3))}});
   to_load(*found, reading.load, out.notes);
   note_conditions(matcher, out);
   found->key = key_of(*found, context.designs) + " | record";

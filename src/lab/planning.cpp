@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "numerics/statistics.h"
 
 namespace papilla::lab {
 namespace {
@@ -50,12 +49,11 @@ Aim aim_of(const Standing& s, const NextOptions& options) {
   return s.ensemble.hypotheses.size() > 1 ? Aim::Hypotheses : Aim::Parameters;
 }
 
-// Median and 95 % of what belief expects of a row [N].
-std::vector<double> expected(const Standing& s, const std::optional<std::size_t>& row) {
-  if (!row) return {};
+// Median and 95 % of what belief expects of a reading [N].
+std::vector<double> expected(const Evidence& evidence, const Observation& reading) {
+  const ExpectedReading of = evidence.expected(reading);
   std::vector<double> out;
-  for (const double p : {0.5, 0.025, 0.975})
-    out.push_back(std::exp(weighted_quantile(s.ensemble.responses[*row], s.weights, p)));
+  for (const double p : {0.5, 0.025, 0.975}) out.push_back(std::exp(of.quantile(p)));
   return out;
 }
 
@@ -101,8 +99,10 @@ std::vector<PlannedExperiment> planned_of(const Standing& s, const ResponseTable
     p.experiment = e;
     p.gain = c.gain;
     const MeasurableCell& cell = table.cell(e);
-    p.expected_off = expected(s, cell.off);
-    p.expected_on = expected(s, cell.on);
+    for (const Observation& o : candidates[c.candidate].readings) {
+      const bool on = cell.on && o.row == *cell.on;
+      (on ? p.expected_on : p.expected_off) = expected(*s.evidence, o);
+    }
     for (const FieldEntry& f : file.fields) {
       const Conditions at{f.load, f.humidity, f.voltage, f.voltage > 0 ? f.frequency : 0, f.state};
       if (at == e.at && file.designs[e.design].name == f.design && p.field.empty())

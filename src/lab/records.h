@@ -22,7 +22,8 @@ struct PlannedExperiment {
   int repeats = 1;                // touches
   double gain = 0;                // of what there is to gain, when it was chosen
   std::vector<Foreseen> off, on;  // thirds of its readings; empty without a decision
-  std::vector<double> expected_off, expected_on;  // [N]: median and 95 % interval by belief
+  // Of a touch, by belief and the readings before the plan [N]: median and 95 % interval.
+  std::vector<double> expected_off, expected_on;
 };
 
 // Why no more experiments are worth it.

@@ -123,8 +123,20 @@ class TraceReader {
     if (cut_) out_.notes.push_back("the last line is cut off: the record ended there");
     if (problems_.empty() && out_.size() < kFewest)
       problem("", fmt::format("{} only: no record of sliding", counted(out_.size(), "sample")));
+    if (problems_.empty()) check_load();
     if (problems_.empty()) check_time();
     if (!problems_.empty()) throw InputError(problems_);
+  }
+
+  // By squares: a single spike of the other sign decides nothing, nor does a small zero of the
+  // sensor while nothing is touched.
+  void check_load() {
+    double pressed = 0;
+    for (const double force : out_.normal) pressed += force * std::abs(force);
+    if (pressed <= 0)
+      problem("normal",
+              "is below 0 where the finger presses, or 0 everywhere: turn its sign, a force that "
+              "presses counts as positive");
   }
 
   void check_time() {

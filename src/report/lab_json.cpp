@@ -1,5 +1,4 @@
 // A lab as JSON. Declared in report/lab_words.h.
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "report/json.h"
@@ -50,8 +49,8 @@ LabJson standing_json(Lab& lab) {
   for (const Discrepancy& d : s.discrepancies.found)
     found.push_back({{"where", d.where},
                      {"probability", json_number(d.probability)},
-                     {"shift", json_number(std::expm1(d.shift))},
-                     {"deviation", json_number(d.deviation)}});
+                     {"shift", json_number(d.change())},
+                     {"deviation", json_number(d.change_deviation())}});
   return {{"readings", lab.readings().size()},
           {"worth", lab.file().worth},
           {"best", s.decided() ? LabJson(name(s.best)) : LabJson(nullptr)},

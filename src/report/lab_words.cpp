@@ -141,8 +141,8 @@ std::string discrepancy_text(const Standing& s) {
   out += fmt::format(
       " What no member explains is most likely found {} (probability {}): friction is {:+.0f} % ± "
       "{:.0f} % off there.",
-      first.where, lab_percent(first.probability), 100 * std::expm1(first.shift),
-      100 * first.deviation);
+      first.where, lab_percent(first.probability), 100 * first.change(),
+      100 * first.change_deviation());
   if (d.found.size() > 1 && d.found[1].probability > 0.05)
     out += fmt::format(" If not, it is found {} (probability {}).", d.found[1].where,
                        lab_percent(d.found[1].probability));
@@ -448,7 +448,9 @@ std::string lab_told_text(const Lab& lab, const Told& told) {
       std::vector<std::string> forces;
       const auto add = [&](const char* name, double force, double sd) {
         if (force > 0)
-          forces.push_back(fmt::format("{} {} mN", name, with_error(1e3 * force, 1e3 * sd)));
+          forces.push_back(fmt::format(
+              "{} {} mN", name,
+              sd > 0 ? with_error(1e3 * force, 1e3 * sd) : significant(1e3 * force, 4)));
       };
       add("F_off", r.off, r.off_sd);
       add("F_on", r.on, r.on_sd);

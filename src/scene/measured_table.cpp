@@ -63,6 +63,10 @@ const std::vector<ColumnKind>& table_kinds() {
   return kinds;
 }
 
+double scatter(double value, std::optional<double> sd) {
+  return std::max(sd.value_or(0), kScatter * value);
+}
+
 class TableReader {
  public:
   TableReader(std::string_view text, const std::string& file) : lines_(text), file_(file) {}
@@ -135,7 +139,7 @@ class TableReader {
       if (columns_[i].kind && !cells[i].empty())
         take(r, columns_[i], cells[i], static_cast<int>(i) + 1);
     }
-    check(r);
+    for (Problem& p : row_problems(r, file_)) problems_.push_back(std::move(p));
     out_.rows.push_back(std::move(r));
   }
 
@@ -220,11 +224,8 @@ class TableReader {
 
   std::optional<double> humidity(const TableColumn& column, std::string_view cell, int place) {
     const auto value = number(column, cell, place, 0, 1);
-    if (value && *value > 0 && *value < kLeastHumidity)
-      problem("humidity",
-              fmt::format("{} %: is it a share? Then {} % is meant", cell,
-                          significant(1e4 * *value, 3)),
-              place);
+    const std::string wrong = value ? humidity_problem(*value) : "";
+    if (!wrong.empty()) problem("humidity", wrong, place);
     return value;
   }
 
@@ -250,19 +251,6 @@ class TableReader {
     return std::nullopt;
   }
 
-  void check(const MeasuredRow& r) {
-    if (r.on && r.voltage == 0.0) problem("F_on", "a friction under voltage, but the voltage is 0");
-    for (const auto& [name, force] : {std::pair("F_off", r.off), std::pair("F_on", r.on)}) {
-      if (!force || !r.load || *force <= kLargestCoefficient * *r.load) continue;
-      problem(name, fmt::format("{} N is {} times the load of {} N{}", significant(*force, 4),
-                                significant(*force / *r.load, 3), significant(*r.load, 3),
-                                *force > kCoefficientOfAnotherUnit * *r.load
-                                    ? fmt::format(": are these mN? Then {} N is meant",
-                                                  significant(*force / 1000, 4))
-                                    : "; no finger rubs so"));
-    }
-  }
-
   // A voltage draws the finger to the surface: columns that surely say the contrary are exchanged
   // where most rows say so, and a few rows have a wrong number.
   void check_order() {
@@ -285,10 +273,6 @@ class TableReader {
     }
   }
 
-  static double scatter(double value, std::optional<double> sd) {
-    return std::max(sd.value_or(0), kScatter * value);
-  }
-
   // The rows that surely say so, each beside the F_off over F_on that the table's middle row has.
   // false: none does by itself.
   bool name_lower(const std::vector<const MeasuredRow*>& both,
@@ -300,9 +284,7 @@ class TableReader {
     std::nth_element(ratios.begin(), middle, ratios.end());
     const std::size_t before = problems_.size();
     for (const MeasuredRow* r : lower) {
-      if (*r->off - *r->on <=
-          kBeyondScatter * std::hypot(scatter(*r->off, r->off_sd), scatter(*r->on, r->on_sd)))
-        continue;
+      if (!rubs_less_driven(*r)) continue;
       const double ratio = *r->off / *r->on;
       problems_.push_back(
           {file_, r->line, 0, "F_off",
@@ -325,6 +307,37 @@ class TableReader {
 
 MeasuredTable read_measured_table(std::string_view text, const std::string& file) {
   return TableReader(text, file).read();
+}
+
+std::vector<Problem> row_problems(const MeasuredRow& r, const std::string& file) {
+  std::vector<Problem> out;
+  if (r.on && r.voltage == 0.0)
+    out.push_back({file, r.line, 0, "F_on", "a friction under voltage, but the voltage is 0"});
+  for (const auto& [name, force] : {std::pair("F_off", r.off), std::pair("F_on", r.on)}) {
+    if (!force || !r.load || *force <= kLargestCoefficient * *r.load) continue;
+    out.push_back({file, r.line, 0, name,
+                   fmt::format("{} N is {} times the load of {} N{}", significant(*force, 4),
+                               significant(*force / *r.load, 3), significant(*r.load, 3),
+                               *force > kCoefficientOfAnotherUnit * *r.load
+                                   ? fmt::format(": are these mN? Then {} N is meant",
+                                                 significant(*force / 1000, 4))
+                                   : "; no finger rubs so")});
+  }
+  return out;
+}
+
+std::string humidity_problem(double relative_humidity) {
+  const std::string percent = significant(100 * relative_humidity, 3);
+  if (!(relative_humidity >= 0 && relative_humidity <= 1))
+    return percent + " % lies outside 0 to 100 %";
+  if (relative_humidity == 0 || relative_humidity >= kLeastHumidity) return "";
+  return fmt::format("{} %: is it a share? Then {} % is meant", percent,
+                     significant(1e4 * relative_humidity, 3));
+}
+
+bool rubs_less_driven(const MeasuredRow& r) {
+  return *r.off - *r.on >
+         kBeyondScatter * std::hypot(scatter(*r.off, r.off_sd), scatter(*r.on, r.on_sd));
 }
 
 std::string frequency_problem(const Drive& drive, double frequency) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/error.h"
 #include "base/rooms.h"
 #include "scene/environment.h"
 #include "scene/finger.h"
@@ -42,6 +43,16 @@ struct MeasuredTable {
 // that is none or lies outside of what a finger does, a friction beyond ten times the load, F_on
 // below F_off on average by more than touches scatter, a line that is cut off.
 MeasuredTable read_measured_table(std::string_view text, const std::string& file);
+
+// A table reads its rows by these three; what was measured otherwise is held against them too.
+// What no finger does: a friction beyond ten times the load, one under a voltage of 0.
+std::vector<Problem> row_problems(const MeasuredRow& row, const std::string& file);
+// What is wrong with a relative humidity, from 0 to 1, that was measured: less than 1 % is a share.
+// "": nothing.
+std::string humidity_problem(double relative_humidity);
+// Whether a row with both frictions surely says that the finger rubs less under voltage than
+// without it, by more than touches scatter, where a voltage draws the finger to the surface.
+bool rubs_less_driven(const MeasuredRow& row);
 
 // What is wrong with a frequency [Hz] that was measured under the voltage of a drive: 0 is a
 // constant voltage, and a design that is driven by a wave has another friction. "": nothing.

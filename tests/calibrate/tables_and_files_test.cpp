@@ -444,6 +444,8 @@ TEST_F(TablesAndFiles, MistakesOfAFitAreToldInTheirWords) {
   EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, prior = 2.0, factor = 1.5, sd = "
                       "0.2 }"),
             where + "a prior has one width: `factor` or `sd`\n");
+  EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, prior = 2.0, sd = 0.0 }"),
+            where + "expected `sd` above 0: what is known exactly stands in the finger's file\n");
   EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, prior = 3.5, sd = 0.2 }"),
             "5:51: parameters.skin.softening.prior: 3.5 lies outside the bounds 1.2 to 3\n");
   EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, prior = 1.1, factor = 2.0 }"),

@@ -38,6 +38,13 @@ TEST(Discrepancy, IsFoundWhereItIsWithItsSize) {
   EXPECT_LT(d.found.front().deviation, 0.05);
 }
 
+// A tenth of the logarithm about a half is a twentieth of the friction.
+TEST(Discrepancy, HasItsErrorAsAShareOfTheFrictionToo) {
+  const Discrepancy d{"of the last", 1, std::log(0.5), 0.1};
+  EXPECT_NEAR(d.change(), -0.5, 1e-12);
+  EXPECT_NEAR(d.change_deviation(), 0.05, 1e-12);
+}
+
 TEST(Discrepancy, IsNotSeenWhereThereIsNone) {
   const Discrepancies d = found(0);
   EXPECT_GT(d.none, 0.7);
@@ -106,6 +113,28 @@ TEST(Gauge, CountsADifferenceOfTwoDaysOrFingersOnce) {
   EXPECT_EQ(after_gauge(stated, days).day_to_day, stated.day_to_day);
   EXPECT_EQ(fingers.finger_to_finger.freedom, 1);
   EXPECT_EQ(after_gauge(stated, fingers).finger_to_finger, stated.finger_to_finger);
+}
+
+// Readings scatter by what they state and by .02 beside it: the covariance of readings adds both
+// (Eq. lab.1), days and fingers have neither.
+TEST(Gauge, TakesWhatReadingsStateOffTheirRepeatability) {
+  RandomStream random(13, "gauge");
+  std::vector<FrictionReading> readings;
+  for (int finger = 0; finger < 1000; ++finger) {
+    const double of_finger = 0.05 * random.normal();
+    for (int day = 0; day < 2; ++day) {
+      const double of_day = 0.05 * random.normal();
+      for (int repeat = 0; repeat < 2; ++repeat) {
+        readings.push_back(gauge_reading(
+            0, finger, day, of_finger + of_day + std::hypot(0.02, 0.04) * random.normal()));
+        readings.back().off_sd = 0.04 * readings.back().off;
+      }
+    }
+  }
+  const Gauge g = gauge_of(readings);
+  EXPECT_NEAR(g.repeatability.deviation, 0.02, 0.004);
+  EXPECT_NEAR(g.day_to_day.deviation, 0.05, 0.005);
+  EXPECT_NEAR(g.finger_to_finger.deviation, 0.05, 0.007);
 }
 
 // No finger has a second day: what repeats differ by is none of the fingers'.

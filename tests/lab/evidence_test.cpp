@@ -110,6 +110,34 @@ TEST(Evidence, MovesWorthAsALinearModelDoes) {
   EXPECT_NEAR(spread, 2 * std::sqrt(0.2), 0.03);
 }
 
+// Before it a reading is x + N(0, .25) of x ~ N(0, 1); after one of .8 it is N(.64, .2 + .25).
+TEST(Evidence, ExpectsOfAReadingWhatThoseBeforeItSay) {
+  const Ensemble e = linear_ensemble(3000, {{1.0}}, {{1.0}});
+  const Kernels k = kernels_of(e);
+  const Instrument instrument = plain_instrument(0.5);
+  Evidence evidence(e, k, instrument);
+  const Observation reading = observation(0, 0.5);
+  const ExpectedReading before = evidence.expected(reading);
+  EXPECT_NEAR(before.quantile(0.5), 0, 0.05);
+  EXPECT_NEAR(before.quantile(0.975), 1.96 * std::sqrt(1.25), 0.05);
+  evidence.add(reading, 0.8);
+  const ExpectedReading after = evidence.expected(reading);
+  EXPECT_NEAR(after.quantile(0.5), 0.64, 0.03);
+  EXPECT_NEAR(after.quantile(0.025), 0.64 - 1.96 * std::sqrt(0.45), 0.05);
+  EXPECT_NEAR(after.quantile(0.975), 0.64 + 1.96 * std::sqrt(0.45), 0.05);
+}
+
+// Three members half apart; a reading lies beyond all of them, and those to come lie about it.
+TEST(Evidence, ExpectsReadingsBeyondItsMembersWhereTheyLieThere) {
+  Ensemble e = linear_ensemble(3, {{0.0}}, {{0.0}});
+  e.responses[0] = {-0.5, 0, 0.5};
+  const Kernels k = kernels_of(e);
+  const Instrument instrument{0.01, 0, 0, 0};
+  Evidence evidence(e, k, instrument);
+  for (int touch = 0; touch < 10; ++touch) evidence.add(observation(0, 0.01), 0.8);
+  EXPECT_NEAR(evidence.expected(observation(0, 0.01)).quantile(0.5), 0.8, 0.01);
+}
+
 // Members agree on everything; the skins leave friction open, and worth with it: a normal number s
 // moves rows by .1 s and .4 s, worth by 2 s.
 TEST(Evidence, MovesWorthByWhatSkinsLeaveOpenOfBoth) {

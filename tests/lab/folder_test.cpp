@@ -327,6 +327,29 @@ TEST_F(LabFolder, TakesARecordAsAReadingWithAPicture) {
   EXPECT_EQ(readings(), 1u);
 }
 
+// Ten touches say what the next one will, and no scatter that none of them has stated.
+TEST_F(LabFolder, ExpectsOfATouchWhatThoseBeforeItHadRead) {
+  std::string rows = kHead;
+  for (int repeat = 1; repeat <= 10; ++repeat)
+    rows += fmt::format("deep,{},0.2,35,200,2026-03-02,0.06,0.09\n", repeat);
+  const TellReport told = tell({file("ten.csv", rows)});
+  EXPECT_NE(told.markdown.find("F_off 60 mN, F_on 90 mN"), std::string::npos) << told.markdown;
+  NextOptions options;
+  options.aim = Aim::Decision;
+  options.date = "2026-03-03";
+  options.count = 2;
+  const PlanRecord plan = Lab(folder_, 1).next(options);
+  ASSERT_FALSE(plan.experiments.empty());
+  for (const PlannedExperiment& p : plan.experiments) {
+    for (const auto& [expected, thirds] :
+         {std::pair(p.expected_off, p.off), std::pair(p.expected_on, p.on)}) {
+      ASSERT_EQ(thirds.size(), 3u);
+      EXPECT_GT(expected.at(0), thirds[1].low) << p.id;  // the median lies in the middle third
+      EXPECT_LT(expected.at(0), thirds[1].high) << p.id;
+    }
+  }
+}
+
 TEST_F(LabFolder, MovesWeightToTheHypothesisThatTheReadingsSpeakFor) {
   Lab lab(folder_, 1);
   const Standing& s = lab.standing();

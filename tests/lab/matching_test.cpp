@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
 #include <tuple>
 
@@ -259,6 +260,115 @@ TEST_F(Tell, TakesAReadingForTheNearestOfItsConditions) {
   lab_.fields = {field(0.2, 0.35), field(0.22, 0.35)};
   EXPECT_EQ(told("field,load_N,F_off_N\nA3,0.22,0.1\n").experiment.at.load, 0.22);
   EXPECT_EQ(told("field,load_N,F_off_N\nA3,0.2,0.1\n").experiment.at.load, 0.2);
+}
+
+// As they were measured, before they are rounded: 0.012 N is no 0.01 N, 13.6 % no 14 %.
+TEST_F(Tell, TakesARecordAsPlannedWhereItIsNear) {
+  PlannedExperiment planned;
+  planned.id = "E01";
+  planned.experiment = {0, {0.012, 0.124, 12.5}};
+  planned_ = {planned};
+  TraceReading reading;
+  reading.off = 0.003;
+  reading.on = 0.004;
+  reading.off_sd = reading.on_sd = 1e-5;
+  reading.load = 0.012;
+  reading.relative_humidity = 0.136;
+  reading.voltage = 12.4;
+  const FrictionReading near = record({}, reading, "E01.csv");
+  EXPECT_EQ(near.experiment.at, planned.experiment.at);
+  EXPECT_EQ(near.off, 0.003);
+  // Of none that was planned, by round numbers; a small load is not rounded away.
+  reading.load = 0.0204;
+  reading.relative_humidity = 0.433;
+  reading.voltage = 151.3;
+  const Conditions own = record({}, reading, "E01.csv").experiment.at;
+  EXPECT_DOUBLE_EQ(own.load, 0.020);
+  EXPECT_DOUBLE_EQ(own.relative_humidity, 0.43);
+  EXPECT_DOUBLE_EQ(own.voltage, 151);
+  reading.load = 0.00204;
+  EXPECT_DOUBLE_EQ(record({}, reading, "E01.csv").experiment.at.load, 0.0020);
+  // What it does not measure is as it was planned, to the last bit.
+  reading.relative_humidity.reset();
+  reading.on_sd = 0;
+  const Conditions meant = record({}, reading, "E01.csv").experiment.at;
+  EXPECT_EQ(meant.relative_humidity, 0.124);
+  EXPECT_EQ(meant.voltage, 12.5);
+}
+
+// 0.01 times 35 is no 0.35: it is what was planned all the same.
+TEST_F(Tell, SaysNothingOfARecordUnderWhatWasPlanned) {
+  PlannedExperiment planned;
+  planned.id = "E01";
+  planned.experiment = {0, {0.2, 0.35}};
+  planned_ = {planned};
+  TraceReading reading;
+  reading.off = 0.1;
+  reading.off_sd = 0.001;
+  reading.load = 0.2;
+  const MatchContext to{lab_, designs_, planned_};
+  const auto notes = [&] { return match_trace({}, reading, to, {}, "E01.csv").notes.size(); };
+  EXPECT_EQ(notes(), 0u);
+  reading.relative_humidity = 0.35;
+  EXPECT_EQ(notes(), 0u);
+  reading.relative_humidity = 0.36;
+  EXPECT_EQ(notes(), 1u);
+}
+
+TEST_F(Tell, RefusesOfARecordWhatItRefusesOfATable) {
+  PlannedExperiment planned;
+  planned.id = "E01";
+  planned.experiment = {0, {0.2, 0.35, 200}};
+  planned_ = {planned};
+  TraceReading good;
+  good.off = 0.1;
+  good.on = 0.12;
+  good.off_sd = good.on_sd = 0.001;
+  good.load = 0.2;
+  good.voltage = 200;
+  const auto refused_with = [&](const std::function<void(TraceReading&)>& change) {
+    TraceReading reading = good;
+    change(reading);
+    return keyed_refusal_of([&] { record({}, reading, "E01.csv"); });
+  };
+  EXPECT_EQ(refused_with([](TraceReading&) {}), "");
+  EXPECT_EQ(refused_with([](TraceReading& r) { r.relative_humidity = 0.0035; }),
+            "humidity: 0.35 %: is it a share? Then 35 % is meant\n");
+  EXPECT_EQ(refused_with([](TraceReading& r) { r.relative_humidity = 1.2; }),
+            "humidity: 120 % lies outside 0 to 100 %\n");
+  EXPECT_NE(refused_with([](TraceReading& r) { r.off = 90, r.on = 120; }).find("are these mN?"),
+            std::string::npos);
+  EXPECT_EQ(
+      refused_with([](TraceReading& r) { r.load = 200; }),
+      "normal: the finger pressed with 200 N, outside 1e-06 to 100 N: is the force in another "
+      "unit?\n");
+  EXPECT_NE(refused_with([](TraceReading& r) {
+              r.on = 0.07;
+            }).find("voltage: under voltage the finger rubs with 70 mN, without it with 100 mN"),
+            std::string::npos);
+  EXPECT_EQ(refused_with([](TraceReading& r) { r.on = 0.095; }), "");  // as touches scatter
+}
+
+TEST_F(Tell, RefusesAnOptionThatNamesAnotherExperimentThanTheRecord) {
+  PlannedExperiment planned;
+  planned.id = "E01";
+  planned.experiment = {0, {0.2, 0.35}};
+  planned_ = {planned, planned};
+  planned_.back().id = "E02";
+  TraceReading reading;
+  reading.off = 0.1;
+  reading.off_sd = 0.001;
+  reading.load = 0.2;
+  const auto refused_by = [&](const std::string& experiment) {
+    TellOptions options;
+    options.experiment = experiment;
+    const MatchContext to{lab_, designs_, planned_};
+    return keyed_refusal_of([&] { match_trace({}, reading, to, options, "E01_run1.csv"); });
+  };
+  EXPECT_EQ(refused_by("E01"), "");
+  EXPECT_EQ(refused_by("E02"),
+            "experiment: E01 by the record's head or name, E02 by --experiment: leave the option "
+            "out, or correct the record\n");
 }
 
 TEST_F(Tell, TakesTheFingerToBeInTheOnlyStateOfTheLab) {

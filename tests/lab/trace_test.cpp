@@ -228,6 +228,19 @@ TEST(Record, IsRefusedWhereNothingSlidesSteadily) {
             std::string::npos);
 }
 
+// A sensor that counts what pulls as positive.
+TEST(Record, IsRefusedWhereTheFingerPressesWithLessThanNothing) {
+  Tribometer t;
+  t.strokes = 2;
+  t.load = -0.2;
+  const std::string pulls = t.record();
+  EXPECT_NE(refusal_of([&] { read(pulls); }).find("turn its sign"), std::string::npos);
+  // A spike is no sign: of the record's last line, by ten times the load.
+  t.load = 0.2;
+  const std::string text = t.record();
+  EXPECT_EQ(refusal_of([&] { read_trace(text + "99,0.1,-2,0,35,0\n", "r.csv"); }), "");
+}
+
 TEST(Record, IsRefusedForWrongUnitsAndDamage) {
   Tribometer t;
   t.strokes = 2;
