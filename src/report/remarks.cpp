@@ -49,6 +49,9 @@ CutWords words_of(const ClockCut& cut, const Study& study, bool textured) {
     case RunPart::Sensitivity:
       return {"the sensitivity not computed", "tolerances are not known"};
     case RunPart::Parameters:
+      if (cut.done > 0)
+        return {of("designs with the finger's parameters varied"),
+                "what they leave open of the others is not known"};
       return {"the finger's parameters not varied", "what they leave open is not known"};
     case RunPart::Files:
       break;

@@ -1,5 +1,4 @@
 // The finalists at every member of belief: which of them are on the front, and which to build.
-#include "search/levels.h"
 #include "search/stages.h"
 
 namespace papilla::search {
@@ -29,13 +28,7 @@ void judge_members(Run& run, FinalDesign& f) {
 
 }  // namespace
 
-std::size_t believed(const Run& run) {
-  if (!run.problem.belief()) return 0;
-  if (run.result.finalists.empty()) return most_finalists(run.search);
-  std::size_t out = 0;
-  for (const FinalDesign& f : run.result.finalists) out += f.feasible;
-  return out;
-}
+std::size_t believed(const Run& run) { return run.problem.belief() ? run.may_hold() : 0; }
 
 void judge_belief(Run& run) {
   OptimiseResult& result = run.result;

@@ -109,17 +109,39 @@ void find_sensitivity(Run& run, const FinalDesign& made) {
   run.result.sensitivity = sensitivity(run.problem, centre, moves, at_centre, moved);
 }
 
-// What is not known of fingers and model. Eq. accuracy.12, accuracy.15
-void find_parameters(Run& run, Score& score, const Point& unit, bool flat) {
-  if (!score.ok || !score.parameter_steps.empty() || !run.problem.parameters_unknown().empty())
-    return;
-  std::vector<TaskRequest> requests;
-  for (std::size_t t = 0; t < run.problem.nominal_tasks(); ++t)
-    requests.push_back({Stage::Steps, t, flat, unit, run.confirm_seconds});
-  if (!run.begin(RunPart::Parameters, Stage::Steps, flat,
-                 run.seconds_of(requests.size(), Stage::Steps)))
-    return;
-  run.problem.add_steps(score, run.replay.answers(requests));
+// What is not known of fingers and model, of the best, its surface without texture and, where the
+// fingers name beliefs, of all of the front: few runs a design. Eq. accuracy.12, accuracy.15
+void find_parameters(Run& run) {
+  if (!run.problem.parameters_unknown().empty()) return;
+  struct Unstated {
+    Score* score;
+    const Point* unit;
+    bool flat;
+  };
+  OptimiseResult& result = run.result;
+  FinalDesign& best = result.finalists[result.best];
+  std::vector<Unstated> unstated;
+  const auto add = [&](Score& score, const Point& unit, bool flat) {
+    if (score.ok && score.parameter_steps.empty()) unstated.push_back({&score, &unit, flat});
+  };
+  add(best.confirmed, best.unit, false);
+  if (result.flat) add(*result.flat, best.unit, true);
+  for (FinalDesign& f : result.finalists) {
+    if (run.problem.has_belief() && f.on_front && &f != &best) add(f.confirmed, f.unit, false);
+  }
+  std::size_t done = 0;
+  for (const Unstated& of : unstated) {
+    std::vector<TaskRequest> requests;
+    for (std::size_t t = 0; t < run.problem.nominal_tasks(); ++t)
+      requests.push_back({Stage::Steps, t, of.flat, *of.unit, run.confirm_seconds});
+    const double seconds = run.seconds_of(requests.size(), Stage::Steps);
+    const bool fits = done > 0 ? run.goes_on(Stage::Steps, of.flat, seconds)
+                               : run.begin(RunPart::Parameters, Stage::Steps, of.flat, seconds);
+    if (!fits) break;
+    run.problem.add_steps(*of.score, run.replay.answers(requests));
+    ++done;
+  }
+  if (done > 0) run.cut(RunPart::Parameters, done, unstated.size());
 }
 
 }  // namespace
@@ -151,13 +173,7 @@ void check(Run& run) {
     });
   }
   step(2, 0, RunPart::Parameters);
-  find_parameters(run, best.confirmed, best.unit, false);
-  if (result.flat) find_parameters(run, *result.flat, best.unit, true);
-  // Few runs a design where the fingers name beliefs: all of the front have it.
-  for (FinalDesign& f : result.finalists) {
-    if (run.problem.has_belief() && f.on_front && &f != &best)
-      find_parameters(run, f.confirmed, f.unit, false);
-  }
+  find_parameters(run);
   step(1, 0, RunPart::Files);
 }
 

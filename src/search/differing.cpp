@@ -34,7 +34,9 @@ std::vector<std::pair<std::string, std::string>> resolved_values(const std::stri
 }  // namespace
 
 std::string differing_keys(const std::string& there, const std::string& here) {
-  const std::set<std::string> free{"search.evaluations", "search.jobs", "search.time"};
+  // With which a run may be continued.
+  const std::set<std::string> free{"search.evaluations", "search.jobs", "search.time",
+                                   "search.rounding",    "risk.belief", "risk.limits"};
   const auto known = resolved_values(there), own = resolved_values(here);
   const std::map<std::string, std::string> before(known.begin(), known.end()),
       now(own.begin(), own.end());

@@ -21,7 +21,8 @@ constexpr double kFewConfirmed = 3, kLeastConfirmation = 0.02;
 // differ by this share of some variable's range.
 constexpr std::size_t kLeastBelieved = 4;
 constexpr double kApart = 0.15;
-// The level between asks no design that differs from a judged one by less of every range.
+// The level between asks no design that differs from a judged one by less of every range, and the
+// confirmation none beside one that failed, where no other holds.
 constexpr double kAnotherDesign = 0.03;
 
 // Which designs of one level to judge at the next.
@@ -73,9 +74,10 @@ std::vector<std::size_t> predicted_best(const Run& run, const JudgedDesigns& bel
   return out;
 }
 
-bool apart(const Point& a, const Point& b) {
+// By more than this of some variable's range.
+bool apart(const Point& a, const Point& b, double by) {
   for (std::size_t k = 0; k < a.size(); ++k) {
-    if (std::abs(a[k] - b[k]) > kApart) return true;
+    if (std::abs(a[k] - b[k]) > by) return true;
   }
   return false;
 }
@@ -88,7 +90,7 @@ void add_rivals(const JudgedDesigns& below, std::vector<std::size_t>& chosen) {
     for (std::size_t i = 0; i < below.size(); ++i) {
       const Evaluation& e = below.evaluations[i];
       const bool unlike = std::all_of(chosen.begin(), chosen.end(), [&](std::size_t c) {
-        return apart(e.unit, below.evaluations[c].unit);
+        return apart(e.unit, below.evaluations[c].unit, kApart);
       });
       if (!unlike || !e.outcome.feasible()) continue;
       const std::size_t k = turn % e.outcome.objectives.size();
@@ -245,13 +247,24 @@ class SaferDesigns {
     problem.residuals = 0;
     problem.known_drafts = known_drafts(run_.history.evaluations);
     if (problem.objectives > 2 || problem.known_drafts.empty()) return std::nullopt;
+    if (held.empty()) {
+      // Beside one that failed the next would hold by the luck of its patch alone.
+      problem.cheap_constraints = [&confirmed,
+                                   cheap = run_.search.cheap_constraints](const Point& u) {
+        std::vector<double> out = cheap ? cheap(u) : std::vector<double>{};
+        const bool beside =
+            std::any_of(confirmed.begin(), confirmed.end(),
+                        [&](const Evaluation& e) { return !apart(e.unit, u, kAnotherDesign); });
+        out.push_back(beside ? 1 : -1);
+        return out;
+      };
+    }
     const auto searcher = make_searcher({"bayesian", ""}, problem);
     const std::vector<Evaluation> known = tightened(below_, confirmed);
     searcher->tell(known);
     const std::vector<Point> asked = searcher->ask();
     if (held.empty()) {
-      if (asked.empty() || !run_.search.feasible_before_evaluation(asked.front()))
-        return std::nullopt;
+      if (asked.empty() || !problem.feasible_before_evaluation(asked.front())) return std::nullopt;
       return asked.front();
     }
     return most_promising(asked, known, held);
@@ -393,6 +406,7 @@ void confirm(Run& run) {
   const std::vector<std::size_t> best = predicted_best(run, below);
   std::vector<Point> chosen = to_confirm(run, below, best);
   SaferDesigns safer(run, below, best);
+  run.chosen = chosen.size();
   run.confirm_seconds = confirm_budget(run);
   run.result.confirmed_with = stage_fidelity(run.problem, Stage::Confirm, run.confirm_seconds);
   const bool done_before = run.replay.finished(Stage::Confirm);
@@ -412,12 +426,14 @@ void confirm(Run& run) {
     if (done + 1 == chosen.size()) {
       const auto known_more = done_before ? recorded() : std::nullopt;
       if (const auto more = known_more ? known_more : safer.next()) chosen.push_back(*more);
+      run.chosen = chosen.size();
     }
     run.progress("confirm", static_cast<int>(done + 1), static_cast<int>(chosen.size()),
                  run.seconds_of_designs(chosen.size() - done - 1, Stage::Confirm) +
                      run.seconds_from(RunPart::Belief));
   }
   run.cut(RunPart::Confirm, run.result.finalists.size(), chosen.size());
+  run.chosen = run.result.finalists.size();
   judge(run);
 }
 

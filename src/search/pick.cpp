@@ -27,10 +27,17 @@ PickRule read_pick_rule(const std::string& rule, const std::vector<std::string>&
   // 0 is no number of a design, and no index: pick_design refuses what is beyond the front.
   if (error == std::errc{} && end == rule.data() + rule.size()) return {Kind::Number, number - 1};
   std::string names;
+  std::vector<std::size_t> begun;  // objectives whose names begin so
   for (std::size_t k = 0; k < objectives.size(); ++k) {
-    if (objectives[k].starts_with(rule)) return {Kind::Objective, k};
+    if (objectives[k].starts_with(rule)) begun.push_back(k);
     names += ", \"" + objectives[k] + "\"";
   }
+  if (begun.size() == 1) return {Kind::Objective, begun.front()};
+  if (begun.size() > 1)
+    throw InputError(
+        fmt::format("--pick: \"{}\" begins the names of {} objectives; use one of \"worst\", "
+                    "\"knee\"{} or the number of a design",
+                    rule, begun.size(), names));
   throw InputError(
       fmt::format("--pick: \"{}\" is no rule; use \"worst\", \"knee\"{} or the number of a design",
                   rule, names));

@@ -33,8 +33,8 @@ struct PickRule {
   bool operator==(const PickRule&) const = default;
 };
 // "worst" (or empty, where designs have a worst modulation; "knee" where not), "knee", the
-// beginning of an objective's name as "mean(modulation)", or "3" for front/03. Throws InputError
-// for anything else.
+// beginning of one objective's name as "mean(modulation)", or "3" for front/03. Throws InputError
+// for anything else, and for what begins the names of several.
 PickRule read_pick_rule(const std::string& rule, const std::vector<std::string>& objectives,
                         bool has_worst);
 // By what a run with that rule decides over belief: a number of a design decides nothing, and one

@@ -456,6 +456,21 @@ void set_less_sure(const MemberWorth& d, std::vector<Prospect>& found) {
   for (std::size_t i = 0; i < found.size(); ++i) found[i].less_sure = of[i];
 }
 
+// What a risk makes of each design over the members at which any has a worth: without the draws of
+// what their skins leave open, the worst of which would be the worst luck. Eq. search.17
+void set_merit(const MemberWorth& d, const Risk& risk, std::vector<Prospect>& found) {
+  std::vector<double> weights;
+  std::vector<std::vector<double>> worth(found.size());
+  for (std::size_t m = 0; m < d.weights.size(); ++m) {
+    if (!d.known(m)) continue;
+    weights.push_back(d.weights[m]);
+    for (std::size_t i = 0; i < found.size(); ++i) worth[i].push_back(worth_or_least(d, i, m));
+  }
+  if (weights.empty()) return;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    found[i].merit = apply_risk(risk, true, worth[i], weights);
+}
+
 }  // namespace
 
 std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& risk) {
@@ -466,21 +481,18 @@ std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& ri
   const double all = total(d.weights);
   // Those at which no design has an answer tell none from another.
   std::vector<std::size_t> known;
-  std::vector<double> weights;
+  double of_known = 0;
   for (std::size_t m = 0; m < d.weights.size(); ++m) {
     if (!d.known(m)) continue;
     known.push_back(m);
-    weights.push_back(d.weights[m]);
+    of_known += d.weights[m];
   }
-  const double of_known = total(weights);
   for (const std::size_t m : known) {
     add_best(d, m, d.weights[m] / of_known, out);
     add_regret(of_means, m, d.weights[m] / of_known, out);
   }
   for (std::size_t i = 0; i < out.size(); ++i) {
     Prospect& p = out[i];
-    std::vector<double> worth;
-    for (const std::size_t m : known) worth.push_back(worth_or_least(d, i, m));
     p.p_limits = 0;
     p.p_limit.assign(d.kept[i].size(), 0);
     for (std::size_t m = 0; m < d.weights.size(); ++m) {
@@ -492,11 +504,9 @@ std::vector<Prospect> prospects(const MemberWorth& designs, const BeliefRisk& ri
     p.p_best = std::min(1.0, p.p_best);
     p.p_limits = std::min(1.0, p.p_limits);
     for (double& kept : p.p_limit) kept = std::min(1.0, kept);
-    if (risk.regret)
-      p.merit = -p.regret;
-    else if (!worth.empty())
-      p.merit = apply_risk(risk.risk, true, worth, weights);
+    if (risk.regret) p.merit = -p.regret;
   }
+  if (!risk.regret) set_merit(designs, risk.risk, out);
   set_less_sure(designs, out);
   return out;
 }

@@ -74,7 +74,8 @@ void add_field_moves(const std::vector<WorthBySkin>& confirmed, const std::vecto
                      MemberWorth& designs);
 
 // One design over the belief. p_best, regret and merit are taken over the members at which any
-// design has a worth, p_limit and p_limits over all members.
+// design has a worth, p_limit and p_limits over all members; p_best and regret over what skins
+// leave open too, the merit of another risk than regret over the members alone.
 struct Prospect {
   double p_best = 0;              // Eq. search.15
   double regret = 0;              // expected, in the unit of the worth. Eq. search.16

@@ -224,21 +224,31 @@ double Run::seconds_of_designs(std::size_t designs, Stage stage) const {
   return seconds_of(designs * problem.tasks().size(), stage);
 }
 
+std::size_t Run::may_hold() const {
+  const std::size_t known = result.finalists.size();
+  if (known == 0 && chosen == 0) return most_finalists(search);
+  const auto hold = std::count_if(result.finalists.begin(), result.finalists.end(),
+                                  [](const FinalDesign& f) { return f.feasible; });
+  return static_cast<std::size_t>(hold) + (chosen > known ? chosen - known : 0);
+}
+
 PartSeconds Run::wanted() const {
   PartSeconds out{};
   const auto set = [&](RunPart part, double seconds) {
     out[static_cast<std::size_t>(part)] = seconds;
   };
-  const std::size_t front = result.finalists.empty()
-                                ? most_finalists(search) - 1
-                                : static_cast<std::size_t>(std::count_if(
-                                      result.finalists.begin(), result.finalists.end(),
-                                      [](const FinalDesign& f) { return !f.folder.empty(); }));
+  // Until the confirmed numbers have decided the front, all that may be on it.
+  const auto decided = static_cast<std::size_t>(
+      std::count_if(result.finalists.begin(), result.finalists.end(),
+                    [](const FinalDesign& f) { return !f.folder.empty(); }));
+  const bool begun = chosen > 0 || !result.finalists.empty();
+  const std::size_t front = decided > 0 ? decided : begun ? may_hold() : most_finalists(search) - 1;
   // A level between of too few designs is none: its time is the search's.
   const bool enough = !clock.limited() || seconds_of_designs(kFewNarrowed, Stage::Narrow) <=
                                               part_share(RunPart::Narrow) * study.search.time;
   if (enough) set(RunPart::Narrow, seconds_of_designs(narrowings(search), Stage::Narrow));
-  set(RunPart::Confirm, seconds_of_designs(most_finalists(search), Stage::Confirm));
+  set(RunPart::Confirm,
+      seconds_of_designs(chosen > 0 ? chosen : most_finalists(search), Stage::Confirm));
   if (problem.belief())
     set(RunPart::Belief, seconds_of(believed(*this) * problem.nominal_tasks(), Stage::Belief));
   set(RunPart::Stability, seconds_of(front * stability_variants(problem).size(), Stage::Stability));

@@ -25,6 +25,9 @@ struct Run {
   // the search took and what plans say of both; 0: nothing was timed yet.
   double seconds_of(std::size_t tasks, Stage stage) const;
   double seconds_of_designs(std::size_t designs, Stage stage) const;
+  // Finalists that may keep every limit: of those that are confirmed the ones that do, and those to
+  // come; before there are any, as many as there may be.
+  std::size_t may_hold() const;
   PartSeconds wanted() const;             // of each part in full
   double seconds_from(RunPart on) const;  // wanted by this part and all that follow
   // Whether work of so many seconds still fits into the present part; true without a limit.
@@ -52,7 +55,8 @@ struct Run {
   Replay replay;
 
   JudgedDesigns history, narrowed;  // of the search; of the level between
-  double confirm_seconds = 0;       // that a confirmed task may cost, as plans price it; 0: any
+  std::size_t chosen = 0;  // designs that the confirmation was to judge so far; 0: not known yet
+  double confirm_seconds = 0;  // that a confirmed task may cost, as plans price it; 0: any
   OptimiseResult result;
   std::string unmet_pick;  // why the rule of options.pick fits no design of the front
 
@@ -79,8 +83,7 @@ void narrow(Run& run);
 // The finalists at the study's accuracy: these numbers decide the front.
 void confirm(Run& run);
 
-// Designs whose members of belief are evaluated: the finalists that keep every limit; before there
-// are any, as many as there may be.
+// Designs whose members of belief are evaluated: the finalists that may keep every limit.
 std::size_t believed(const Run& run);
 // The finalists at every member of belief: which are on the front, and which to build.
 void judge_belief(Run& run);

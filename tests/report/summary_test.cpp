@@ -171,6 +171,10 @@ TEST(RunRemarks, EveryCutSaysWhatItLeavesUnsure) {
   EXPECT_EQ(run_remarks(run.study, run.problem, r),
             (Lines{"Cut short by the clock (60 s): the study's own surface without texture not "
                    "computed. Unsure: what the finish does is not known."}));
+  r.cuts = {{RunPart::Parameters, 1, 4}};
+  EXPECT_EQ(run_remarks(run.study, run.problem, r),
+            (Lines{"Cut short by the clock (60 s): 1 of 4 designs with the finger's parameters "
+                   "varied. Unsure: what they leave open of the others is not known."}));
 }
 
 TEST(RunRemarks, ASearchThatWasEndedIsNoneThatHadNothingToTry) {

@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <thread>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -630,6 +632,27 @@ TEST(Decision, ARunThatIsContinuedDecidesTheSame) {
   for (const Stage stage : {Stage::Search, Stage::Confirm, Stage::Belief, Stage::Stability,
                             Stage::Rounding, Stage::Sensitivity})
     EXPECT_TRUE(ended_in.count(stage)) << static_cast<int>(stage);
+}
+
+// What fit and model leave open takes .6 s a design of the front: of a second the clock leaves time
+// for one, and the others are said to be cut.
+TEST(Decision, ALimitEndsTheModelPartsOfTheFront) {
+  Study study = believing(0.3);
+  study.search.time = 1;
+  std::ptrdiff_t steps = 0;
+  const BelievingRun a(study, "decision_clock", [&](const TaskRequest& r) {
+    if (r.stage == Stage::Steps) {
+      ++steps;
+      std::this_thread::sleep_for(std::chrono::milliseconds(600));
+    }
+    return overturning(r);
+  });
+  EXPECT_LE(steps, 1);
+  const std::vector<ClockCut>& cuts = a.run.result.cuts;
+  const auto cut = std::find_if(cuts.begin(), cuts.end(),
+                                [](const ClockCut& c) { return c.part == RunPart::Parameters; });
+  ASSERT_NE(cut, cuts.end());
+  EXPECT_EQ(cut->done, static_cast<std::size_t>(steps));
 }
 
 // Another rule, or another risk, decides by the same answers.

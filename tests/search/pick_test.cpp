@@ -62,6 +62,15 @@ TEST(Pick, UnknownRulesAreRefused) {
   EXPECT_THROW(pick_design("", {}), InputError);
 }
 
+// The first of two would be picked without a word.
+TEST(Pick, TheBeginningOfTwoObjectivesNamesNone) {
+  const std::vector<std::string> names{"mean(modulation)", "mean(friction)"};
+  EXPECT_EQ(read_pick_rule("mean(f", names, true), (PickRule{PickRule::Kind::Objective, 1}));
+  EXPECT_EQ(refusal_of([&] { read_pick_rule("mean", names, true); }),
+            "--pick: \"mean\" begins the names of 2 objectives; use one of \"worst\", \"knee\", "
+            "\"mean(modulation)\", \"mean(friction)\" or the number of a design");
+}
+
 // A run keeps its journal: that it was interrupted stands in its run.json, or it has none.
 TEST(Pick, OfARunWithoutAFrontSaysWhyThereIsNone) {
   const TemporaryFolder place;

@@ -320,6 +320,32 @@ TEST(Prospects, TheRiskDecidesWhatIsChosen) {
     EXPECT_THROW(parse_belief_risk(wrong), InputError) << wrong;
 }
 
+// The first design is better at both members; what its four skins leave open of it is luck, of
+// which the worst of many draws is the design's that scatters most.
+TEST(Prospects, ARiskIsOverMembersAndNotOverTheLuckOfSkins) {
+  MemberWorth d = worth_of({0.5, 0.5}, {{0.9, 0.6}, {0.8, 0.5}});
+  d.by_skin = {{{0.3, -0.1, 0.2, 0}, {0.3, -0.1, 0.2, 0}}, {{0, 0, 0, 0}, {0, 0, 0, 0}}};
+  const auto of_first = [&](const char* risk) {
+    const std::vector<Prospect> p = prospects(d, parse_belief_risk(risk));
+    EXPECT_EQ(chosen(p, 0.9), 0u) << risk;
+    return p[0].merit;
+  };
+  EXPECT_NEAR(of_first("worst"), 0.6, 1e-12);
+  EXPECT_NEAR(of_first("worst 10 %"), 0.6, 1e-12);
+  EXPECT_NEAR(of_first("mean - 1 std"), 0.75 - 0.15, 1e-12);
+  EXPECT_NEAR(of_first("mean"), 0.75, 1e-12);
+  EXPECT_NEAR(of_first("worst"), prospects(d, parse_belief_risk("worst"))[1].merit + 0.1, 1e-12);
+}
+
+// They stand for what the readings leave open between its members (Eq. lab.5).
+TEST(Prospects, DrawsOfALabAreItsBeliefToARisk) {
+  MemberWorth d = worth_of({0.25, 0.25, 0.5}, {{0.4, 0.8, 0.5}, {0.45, 0.45, 0.45}});
+  d.draw_of = {0, 0, 1};
+  const std::vector<Prospect> p = prospects(d, parse_belief_risk("worst"));
+  EXPECT_NEAR(p[0].merit, 0.4, 1e-12);
+  EXPECT_NEAR(p[1].merit, 0.45, 1e-12);
+}
+
 TEST(Prospects, AGroupOfMembersMayChooseAnother) {
   const MemberWorth d = worth_of({0.4, 0.4, 0.2}, {{3, 3, 1}, {1, 2, 4}});
   const std::vector<Reversal> found = by_group(d, {}, 0.9, {{"fit", {0, 1}}, {"emission", {2}}});

@@ -12,6 +12,7 @@
 #include "base/files.h"
 #include "optim/pareto.h"
 #include "search/levels.h"
+#include "search/stability.h"
 #include "tests/search/formula_run.h"
 
 namespace papilla::tests::run_decisions_test {
@@ -164,6 +165,23 @@ TEST(RunDecisions, APartWantsWhatItsDesignsTake) {
   EXPECT_DOUBLE_EQ(
       part(a.run, RunPart::Stability),
       a.run.seconds_of(front * stability_variants(a.run.problem).size(), Stage::Stability));
+}
+
+// While two of four are confirmed, one of which breaks a limit, three may be on the front.
+TEST(RunDecisions, DuringTheConfirmationPartsWantWhatAllThatAreChosenMayTake) {
+  FormulaRun a(two_variables(12), fresh_folder("decided_during"), lines);
+  search_designs(a.run);
+  const auto stability_of = [&](std::size_t designs) {
+    return a.run.seconds_of(designs * stability_variants(a.run.problem).size(), Stage::Stability);
+  };
+  const auto wanted = [&](RunPart p) { return a.run.wanted()[static_cast<std::size_t>(p)]; };
+  a.run.chosen = 4;
+  EXPECT_DOUBLE_EQ(wanted(RunPart::Confirm), a.run.seconds_of_designs(4, Stage::Confirm));
+  EXPECT_DOUBLE_EQ(wanted(RunPart::Stability), stability_of(4));
+  a.run.result.finalists.resize(2);
+  a.run.result.finalists[0].feasible = true;
+  EXPECT_EQ(a.run.may_hold(), 3u);
+  EXPECT_DOUBLE_EQ(wanted(RunPart::Stability), stability_of(3));
 }
 
 TEST(RunDecisions, OnlyALimitCutsAndAPartOnce) {

@@ -515,6 +515,10 @@ TEST(DifferingKeys, AreNamedByTheirTables) {
       "evaluations = 6\n";
   EXPECT_EQ(differing_keys(there, here), "b.c \"x\", \"y\"; d[1].e 2, 3; f.g 1, none");
   EXPECT_EQ(differing_keys(here, there), "b.c \"y\", \"x\"; d[1].e 3, 2; f.g none, 1");
+  // With other numbers of these a run goes on: they are no reason why it does not.
+  EXPECT_EQ(differing_keys("[search]\nrounding = 1\ntime = 1\n[risk]\nbelief = 1\nlimits = 1\n",
+                           "[search]\nrounding = 2\ntime = 2\n[risk]\nbelief = 2\nlimits = 2\n"),
+            "");
   EXPECT_EQ(differing_keys(here, here), "");
   EXPECT_EQ(differing_keys("a = 1\nb = 1\nc = 1\nd = 1\n", "a = 2\nb = 2\nc = 2\nd = 2\n"),
             "a 1, 2; b 1, 2; c 1, 2");

@@ -747,6 +747,39 @@ TEST(Stages, WhereNothingHoldsSaferDesignsAreConfirmed) {
   EXPECT_EQ(result.finalists.front().confirmed.oxide_margin, least);
 }
 
+// Numbers scatter from design to design: of many that are alike one would keep the limit by luck.
+TEST(Stages, WhereNothingHoldsNoDesignBesideOneThatFailedIsConfirmed) {
+  AnsweredRun a(evolved(), fresh_folder("stages_beside"), [](const TaskRequest& r) {
+    TaskAnswer out = lines(r);
+    const double luck = 0.02 * std::sin(1e4 * (r.unit[0] + 2 * r.unit[1]));
+    out.oxide_margin = (r.stage == Stage::Confirm ? 1 : 2.5) + 0.1 * r.unit[1] + luck;
+    return out;
+  });
+  search_designs(a.run);
+  narrow(a.run);
+  confirm(a.run);
+  std::vector<Point> confirmed;
+  for (const TaskRequest& r : a.asked) {
+    if (r.stage == Stage::Confirm) confirmed.push_back(r.unit);
+  }
+  std::size_t asked_anew = 0;
+  for (std::size_t i = 0; i < confirmed.size(); ++i) {
+    const Point& u = confirmed[i];
+    const auto is_it = [&](const Evaluation& e) { return e.unit == u; };
+    const std::vector<Evaluation>&searched = a.run.history.evaluations,
+          &between = a.run.narrowed.evaluations;
+    if (u[0] == 0 || std::any_of(searched.begin(), searched.end(), is_it) ||
+        std::any_of(between.begin(), between.end(), is_it))
+      continue;
+    ++asked_anew;
+    for (std::size_t j = 0; j < i; ++j) {
+      const Point& v = confirmed[j];
+      EXPECT_GT(std::max(std::abs(u[0] - v[0]), std::abs(u[1] - v[1])), 0.03) << i << ", " << j;
+    }
+  }
+  EXPECT_GT(asked_anew, 1u);
+}
+
 // Along the front none holds on fresh skins, beside it some do: until one of them is confirmed.
 TEST(Stages, ASaferDesignThatHoldsIsFound) {
   AnsweredRun a(evolved(), fresh_folder("stages_safer"), [](const TaskRequest& r) {
