@@ -26,11 +26,16 @@ constexpr std::size_t kMostSamples = std::size_t{1} << 22;
 
 double insulating_if_zero(double resistivity) { return resistivity > 0 ? resistivity : kInfinity; }
 
-// Several layers as one: resistances and elastances add (exact for equal time constants). Layers
-// that relax stay by themselves.
+bool leaks_alike(const ImpedanceLayer& a, const ImpedanceLayer& b) {
+  constexpr double kAlike = 1e-9;
+  const double one = a.corner_frequency(), other = b.corner_frequency();
+  return std::abs(one - other) <= kAlike * std::max(one, other);
+}
+
+// Layers of one time constant are one: resistances and elastances add. Those of another one, and
+// those that relax, stay by themselves.
 ImpedanceLayer stack(const std::vector<Dielectric>& layers, double area, Network& network) {
   ImpedanceLayer sum{0, 0};
-  double elastance = 0;
   for (const Dielectric& layer : layers) {
     if (layer.thickness == 0) continue;
     ImpedanceLayer one =
@@ -39,12 +44,15 @@ ImpedanceLayer stack(const std::vector<Dielectric>& layers, double area, Network
       one.relaxation = layer.relaxation;
       one.permittivity = layer.permittivity;
       network.relaxing.push_back(std::move(one));
-      continue;
+    } else if (!sum.present()) {
+      sum = one;
+    } else if (leaks_alike(sum, one)) {
+      sum.resistance += one.resistance;
+      sum.capacitance = 1 / (1 / sum.capacitance + 1 / one.capacitance);
+    } else {
+      network.apart.push_back(std::move(one));
     }
-    sum.resistance += one.resistance;
-    elastance += 1 / one.capacitance;
   }
-  if (elastance > 0) sum.capacitance = 1 / elastance;
   return sum;
 }
 
@@ -84,10 +92,20 @@ Scene touched(const DriveCase& c, const Design& design) {
   return scene;
 }
 
-// The gap of the load-carrying patches of a design; water is left out.
+// One patch of it before the drive, its pressure times `pressed`.
+PatchPicture pictured(const DriveCase& c, const Design& design, const Scene& scene, int skin,
+                      double pressed = 1) {
+  PatchPicture out = picture_patch(scene, design.texture, fidelity_of(design),
+                                   c.gap.relative_humidity, skin, 0, pressed);
+  if (out.fields.off.gap.empty())
+    throw InputError(c.gap.design + ": no contact: " + out.fields.off.reason);
+  return out;
+}
+
+// The gap of the load-carrying patches of a design before the drive, and their area; water is no
+// layer of the network.
 Network design_network(const DriveCase& c, double& area) {
   const Design design = read_design(c.gap.design);
-  Fidelity fidelity = fidelity_of(design);
   const Scene scene = in_its_state(touched(c, design));
   const double rh = c.gap.relative_humidity;
   const ElectricalLayer& electrical = scene.finger.electrical;
@@ -95,8 +113,6 @@ Network design_network(const DriveCase& c, double& area) {
     throw InputError(c.gap.design +
                      ": a network of resistors and capacitors does not disperse: set "
                      "finger.electrical.skin_exponent and gap_exponent to 1");
-  const MacroContact& macro = scene.finger.macro;
-  area = macro.load_share * macro.gross_area(scene.finger.load, rh);
   const double skin = scene.finger.skin_layer(rh);
   const double h0 = scene.surface.equivalent_thickness() + skin;
   if (h0 <= 0) {
@@ -106,7 +122,8 @@ Network design_network(const DriveCase& c, double& area) {
   }
   double inverse = 0, inverse_square = 0;
   for (int k = 0; k < c.gap.skins; ++k) {
-    const PatchPicture picture = picture_patch(scene, design.texture, fidelity, rh, k);
+    const PatchPicture picture = pictured(c, design, scene, k);
+    area = scene.finger.load / picture.pressure;  // that carries the load, by every closure
     const auto count = static_cast<double>(picture.fields.off.gap.size()) * c.gap.skins;
     for (double g : picture.fields.off.gap) {
       inverse += 1 / (std::max(g, 0.0) + h0) / count;
@@ -121,26 +138,36 @@ Network design_network(const DriveCase& c, double& area) {
     n.skin = {corner > 0 ? 1 / (2 * kPi * corner * capacitance) : kInfinity, capacitance};
   }
   const double distance = 1 / inverse - h0;
+  constexpr double kClosed = 1e-12;  // [m]
+  if (!(distance > kClosed)) {
+    throw InputError(c.gap.design +
+                     ": its patches touch everywhere, and no gap is left that has a voltage: give "
+                     "what touches a roughness, or gap.distance in place of gap.design");
+  }
   n.gap = rough_gap(inverse, inverse_square, h0,
                     insulating_if_zero(c.gap.resistivity) * distance / area, area);
   n.gap.held = scene.surface.saturated_air_field() * distance;
   return n;
 }
 
-// Eq. drive.16: what the contact spots of a design's patches conduct [S].
+// Eq. drive.16: what the contact spots of a design's patches conduct [S]; 0: not known, of a pin.
 double spots_conductance(const DriveCase& c, double area) {
   const Design design = read_design(c.gap.design);
-  const Fidelity fidelity = fidelity_of(design);
   const double rh = c.gap.relative_humidity;
-  constexpr double kMore = 1.05;  // of the load, for the stiffness
+  Scene scene = touched(c, design);
+  if (!scene.touch.name.empty()) {
+    if (!c.gap.contact_spots) return 0;
+    throw InputError(c.gap.design +
+                     ": gap.contact_spots counts spots of skin, by skin.resistivity, and a pin has "
+                     "none: leave it out");
+  }
+  scene.drive.amplitude = 0;
+  constexpr double kMore = 1.05;  // pressure, for the stiffness
   double stiffness = 0;           // [Pa/m]
   for (int k = 0; k < c.gap.skins; ++k) {
     double pressure[2], gap[2];
     for (const int more : {0, 1}) {
-      Scene scene = touched(c, design);
-      scene.drive.amplitude = 0;
-      scene.finger.macro.load_share /= more ? kMore : 1;
-      const PatchPicture picture = picture_patch(scene, design.texture, fidelity, rh, k);
+      const PatchPicture picture = pictured(c, design, scene, k, more ? kMore : 1);
       pressure[more] = mean_estimate(picture.fields.off.pressure).value;
       gap[more] = mean_estimate(picture.fields.off.gap).value;
     }
@@ -403,14 +430,16 @@ DriveResult solve_drive(const DriveCase& c) {
   r.network = c.gap.design.empty() ? given_network(c) : design_network(c, r.area);
   r.network.shunt = insulating_if_zero(c.source.shunt);
   if (!c.gap.design.empty() && c.skin.resistivity > 0) {
-    r.spots = 1 / spots_conductance(c, r.area);
+    const double conductance = spots_conductance(c, r.area);
+    if (conductance > 0) r.spots = 1 / conductance;
     double& resistance = r.network.gap.layer.resistance;
-    if (c.gap.contact_spots) resistance = 1 / (1 / resistance + 1 / r.spots);
+    if (c.gap.contact_spots) resistance = 1 / (1 / resistance + conductance);
   }
   r.modulation = modulation_of(c);
   const Drive& drive = c.drive;
   const double frequency = drive.waveform == Waveform::Dc ? 0 : drive.frequency;
-  r.carrier = respond(r.network, drive.control, peak_amplitude(drive), frequency);
+  r.carrier =
+      carrier_response(r.network, drive.control, drive.waveform, peak_amplitude(drive), frequency);
 
   r.series = force_series(r.network, drive.control, source_of(c, r.modulation, frequency));
   r.friction = r.series.force;

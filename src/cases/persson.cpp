@@ -84,10 +84,7 @@ std::complex<double> InterfaceSettings::thickness(double skin_thickness, double 
   if (lossy_skin) {
     return series_thickness(surface, skin_thickness, SkinDielectric{}, frequency, gap_resistivity);
   }
-  const std::complex<double> h0 = surface + skin_equivalent;
-  if (gap_resistivity == 0) return h0;
-  return h0 *
-         std::complex<double>(1, 1 / (2 * kPi * frequency * kVacuumPermittivity * gap_resistivity));
+  return (surface + skin_equivalent) * gap_permittivity(frequency, gap_resistivity);
 }
 
 double InterfaceSettings::dielectric_margin(double skin_thickness, double voltage,
@@ -161,6 +158,14 @@ bool insulates(std::complex<double> h0) {
   return std::norm(h0) >= std::numeric_limits<double>::min();
 }
 
+// Of the case's own point and its sweep, without a constant voltage; infinite where all are.
+double lowest_frequency(const MeanFieldCase& c) {
+  double out = kInfinity;
+  for (const double f : c.sweep.frequency) out = f > 0 ? std::min(out, f) : out;
+  const double own = own_frequency(c);
+  return own > 0 ? std::min(out, own) : out;
+}
+
 // At the case's own point or anywhere in its sweeps.
 bool voltage_meets_no_layer(const MeanFieldCase& c) {
   const auto bare = [&](double frequency) {
@@ -193,6 +198,14 @@ MeanFieldCase read_mean_field(Document document) {
       document.problem_at(fmt::format("interface.dielectric.{}", k),
                           "the mean field takes films at rest: leave relaxation and "
                           "saturation_field out, or use papilla evaluate with a pin");
+    constexpr double kInsulates = 0.01;  // corner frequency over the voltage's
+    if (const double lowest = lowest_frequency(c); layer.corner_frequency() > kInsulates * lowest)
+      document.problem_at(
+          fmt::format("interface.dielectric.{}.resistivity", k),
+          fmt::format("the mean field takes films that insulate, and below {:.4g} Hz this one "
+                      "conducts, {:.4g} Hz are asked for: take higher frequencies, a resistivity "
+                      "of 0 for an insulator, or papilla evaluate with a pin",
+                      layer.corner_frequency() / kInsulates, lowest));
   }
   if (c.drive.control == DriveControl::Current) {
     document.problem_at("drive.control", "the mean field takes a voltage; see papilla solve drive");
@@ -272,9 +285,11 @@ class CaseField {
     point.yielded =
         point.sound() && case_.skin.hardness > 0 && point.on.pull.pressure >= case_.skin.hardness;
     point.area_off = loaded.area(load / touch.area);
+    // A gap that conducts passes more than its capacitance. Eq. persson.9
     if (pulls && insulates(point.thickness))
-      point.capacitance =
-          kVacuumPermittivity * touch.area * std::abs(gaps_of(point).inverse(point.thickness));
+      point.capacitance = kVacuumPermittivity * touch.area *
+                          std::abs(gap_permittivity(frequency, case_.interface.gap_resistivity) *
+                                   gaps_of(point).inverse(point.thickness));
     return point;
   }
 

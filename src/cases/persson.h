@@ -89,8 +89,8 @@ struct MeanFieldPoint {
   std::complex<double> thickness;               // h0 [m]
   double area_off = 0;                          // A/A0 without voltage
   FrictionPoint on;
-  // Of the nominal area, gap and layers in series [F], of a skin that conducts by the size of its
-  // admittance; 0 where the gap conducts at 0 Hz or no layer insulates.
+  // Of the nominal area, gap and layers in series [F], of a skin or gap that conducts by the size
+  // of the admittance; 0 where the gap conducts at 0 Hz or no layer insulates.
   double capacitance = 0;
   double dielectric_margin = kInfinity;  // InterfaceSettings::dielectric_margin
   // Under the voltage the dielectric breaks down where the skin touches it.

@@ -65,19 +65,6 @@ void add_step(double time, SlipState state, double current, double step, Swipe& 
     swipe.steps.push_back({time, state, current});
 }
 
-// Mean pull of the carrier at a peak current.
-double carrier_pull(const Network& network, const Drive& drive, double current) {
-  constexpr DriveControl kControl = DriveControl::Current;
-  if (drive.waveform == Waveform::Dc) return respond(network, kControl, current, 0).mean_force;
-  if (drive.waveform != Waveform::Square)
-    return respond(network, kControl, current, drive.frequency).mean_force;
-  constexpr std::size_t kSamples = 4096;  // of a cycle with edges
-  return force_series(network, kControl,
-                      source_signal(Waveform::Square, current, drive.frequency, {}, 1,
-                                    1 / drive.frequency, kSamples))
-      .mean_force;
-}
-
 }  // namespace
 
 StictionOptions SwipeSettings::machine(double current) const {
@@ -122,7 +109,10 @@ Swipe render_swipe(const DriveCase& c, const Network& network) {
   std::map<double, double> pulls;  // by current, of which each state has one
   swipe.samples = rub(finger, options, [&](double current) {
     const auto [pull, is_new] = pulls.try_emplace(current);
-    if (is_new) pull->second = carrier_pull(network, c.drive, current);
+    if (is_new)
+      pull->second = carrier_response(network, DriveControl::Current, c.drive.waveform, current,
+                                      c.drive.frequency)
+                         .mean_force;
     return c.touch.coefficient * (c.touch.load + pull->second);
   });
   for (const RubbingSample& at : swipe.samples)

@@ -230,19 +230,19 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
 }
 
 PatchPicture picture_patch(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
-                           double relative_humidity, int index, int placement) {
+                           double relative_humidity, int index, int placement, double pressed) {
   const PatchSetup setup(scene, texture, fidelity);
   const Grid& grid = setup.plan().grid;
   PatchPicture picture{setup.texture(), setup.skin(index), {}};
   const std::vector<double> height = setup.height(picture.skin);
   const auto kernel = contact_kernel(setup.scene(), setup.body(), grid, relative_humidity);
-  const double pressure =
-      ScaleBridge(setup.scene(), fidelity, grid, relative_humidity, setup.body(), setup.levels())
-          .mean_pressure();
+  picture.pressure = pressed * ScaleBridge(setup.scene(), fidelity, grid, relative_humidity,
+                                           setup.body(), setup.levels())
+                                   .mean_pressure();
   const WaterMember mean{1, water_stream(fidelity.first_skin + index, placement)};
   PatchStates start;
-  solve_patch(setup.problem(height, *kernel, relative_humidity, pressure, mean), setup.plan(),
-              fidelity, start, &picture.fields);
+  solve_patch(setup.problem(height, *kernel, relative_humidity, picture.pressure, mean),
+              setup.plan(), fidelity, start, &picture.fields);
   return picture;
 }
 

@@ -65,8 +65,11 @@ Response respond(const Scene& scene, const Fidelity& fidelity, const PatchSet& p
 struct PatchPicture {
   Heightmap texture, skin;
   PatchFields fields;
+  double pressure = 0;  // of the load alone, mean of the patches in contact [Pa]
 };
+// pressed: that pressure over the one of the scene's closure.
 PatchPicture picture_patch(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
-                           double relative_humidity, int index = 0, int placement = 0);
+                           double relative_humidity, int index = 0, int placement = 0,
+                           double pressed = 1);
 
 }  // namespace papilla::forward

@@ -224,9 +224,10 @@ Json swipe_json(const Swipe& swipe) {
 
 std::string drive_text(const DriveCase& c, const DriveResult& r) {
   std::string out = c.title.empty() ? "" : c.title + '\n';
-  // Layers that relax have lines of their own.
+  // Layers that leak at another time constant and those that relax have lines of their own.
   if (r.network.dielectric.present() || r.network.relaxing.empty())
     out += layer_line("dielectric", r.network.dielectric);
+  for (const ImpedanceLayer& layer : r.network.apart) out += layer_line("dielectric", layer);
   for (const ImpedanceLayer& layer : r.network.relaxing) out += layer_line("relaxing", layer);
   out += layer_line("gap", r.network.gap.layer) + layer_line("skin", r.network.skin);
   out += fmt::format(
@@ -295,6 +296,8 @@ std::string drive_json(const DriveCase& c, const DriveResult& r, const std::vect
            {"onset_static", r.onset_static},
            {"checks", checks}};
   if (r.spots > 0) out["contact_spots"] = r.spots;
+  for (const ImpedanceLayer& layer : r.network.apart)
+    out["dielectric_apart"].push_back(layer_json(layer));
   for (const ImpedanceLayer& layer : r.network.relaxing)
     out["relaxing"].push_back(layer_json(layer));
   for (const Swipe& swipe : swipes) out["swipes"].push_back(swipe_json(swipe));

@@ -45,9 +45,11 @@ DriveCase layered() {
 TEST(DriveByHand, ANetworkIsItsLayersInSeries) {
   DriveCase c = layered();
   const Network n = solve_drive(c).network;
-  // 1 um / 4 + 3 um / 6 = 0.75 um of air on 2 mm2.
-  near(n.dielectric.capacitance, kVacuumPermittivity * 2e-6 / 0.75e-6);
-  EXPECT_EQ(n.dielectric.resistance, kInfinity);
+  near(n.dielectric.capacitance, kVacuumPermittivity * 4 * 2e-6 / 1e-6);
+  near(n.dielectric.resistance, 1e10 * 1e-6 / 2e-6);
+  ASSERT_EQ(n.apart.size(), 1u);  // the insulator
+  near(n.apart[0].capacitance, kVacuumPermittivity * 6 * 2e-6 / 3e-6);
+  EXPECT_EQ(n.apart[0].resistance, kInfinity);
   near(n.skin.capacitance, kVacuumPermittivity * 1000 * 2e-6 / 100e-6);
   near(n.skin.resistance, 3e4 * 100e-6 / 2e-6);
   near(n.gap.distance, 2e-6);
@@ -55,16 +57,34 @@ TEST(DriveByHand, ANetworkIsItsLayersInSeries) {
   near(n.gap.layer.resistance, 1e8 * 2e-6 / 2e-6);
   near(n.gap.force_factor, 0.5 * kVacuumPermittivity * 3 * 2e-6 / square(2e-6));
   EXPECT_EQ(n.shunt, 2e6);
-  c.surface.dielectric.back().resistivity = 2e10;
+  c.surface.dielectric.back().resistivity = 1e10 * 4 / 6;       // the time constant of the other
   c.gap.resistivity = c.skin.resistivity = c.source.shunt = 0;  // insulators, and no shunt
   const Network leaky = solve_drive(c).network;
-  near(leaky.dielectric.resistance, (1e10 * 1e-6 + 2e10 * 3e-6) / 2e-6);
+  // 1 um / 4 + 3 um / 6 = 0.75 um of air on 2 mm2.
+  EXPECT_TRUE(leaky.apart.empty());
+  near(leaky.dielectric.capacitance, kVacuumPermittivity * 2e-6 / 0.75e-6);
+  near(leaky.dielectric.resistance, (1e10 * 1e-6 + 1e10 * 4 / 6 * 3e-6) / 2e-6);
   EXPECT_EQ(leaky.gap.layer.resistance, kInfinity);
   EXPECT_EQ(leaky.skin.resistance, kInfinity);
   EXPECT_EQ(leaky.shunt, kInfinity);
   c.surface.dielectric.clear();
   EXPECT_EQ(solve_drive(c).network.dielectric.capacitance, 0);
   EXPECT_EQ(solve_drive(c).network.dielectric.resistance, 0);
+}
+
+// Far below the corner of the one layer, 45 kHz, the other has all of the film's voltage: 3 um of 6
+// beside a gap of 2 um of 3, which share it as 3 to 4.
+TEST(DriveByHand, ALayerThatLeaksLeavesTheFilmsVoltageToTheOneThatInsulates) {
+  DriveCase c = layered();
+  c.surface.dielectric[0].resistivity = 1e5;
+  c.gap.resistivity = 0;
+  c.skin.thickness = 0;
+  c.drive.frequency = 0.1;
+  const DriveResult r = solve_drive(c);
+  EXPECT_NEAR(r.carrier.gap_voltage, 100 * 4.0 / 7, 1e-3);
+  EXPECT_NEAR(r.carrier.film_voltage, 100 * 3.0 / 7, 1e-3);
+  c.drive.waveform = Waveform::Dc;
+  EXPECT_NEAR(solve_drive(c).carrier.gap_voltage, 100 * 4.0 / 7, 1e-9);
 }
 
 // Without films and skin the gap has the source's voltage: force and friction sample by sample.
@@ -171,6 +191,18 @@ TEST(DriveByHand, MoreSamplesThanFourMillionAreRefused) {
   tones.drive.frequency = 3e3;
   tones.tones.frequency = {std::sqrt(2.0)};
   EXPECT_NE(keyed_refusal_of([&] { solve_drive(tones); }), "");
+}
+
+// The carrier of a square wave is that wave: its square is constant, without a ripple.
+TEST(DriveByHand, TheCarrierOfASquareWavePullsAllTheTime) {
+  DriveCase c = bare();
+  c.drive.waveform = Waveform::Square;
+  const DriveResult r = solve_drive(c);
+  near(r.carrier.mean_force, r.network.gap.force_factor * 1e4);
+  near(r.carrier.mean_force, r.series.mean_force);
+  EXPECT_LT(r.carrier.ripple, 1e-9 * r.carrier.mean_force);
+  near(r.carrier.gap_voltage, 100);
+  near(r.carrier.current, r.series.peak_current);
 }
 
 // Every line of a square wave's friction: its square is constant, so the mean alone.

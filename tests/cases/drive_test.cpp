@@ -13,6 +13,7 @@
 #include "forward/forward.h"
 #include "numerics/statistics.h"
 #include "report/drive.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests::drive_test {
@@ -418,6 +419,56 @@ TEST(DriveFile, TheNetworkOfADesignIsThatOfItsLayers) {
               0.5 * kVacuumPermittivity * r.area * inverse_square / count *
                   square(1 + (film + skin) / distance),
               1e-6 * r.network.gap.force_factor);
+}
+
+// The file of a design of few pixels.
+std::string few_pixels(const std::string& name, const std::string& touching) {
+  const std::string path = temporary(name);
+  write_bytes(path,
+              "schema_version = 1\n[texture]\ntype = \"flat\"\n[surface]\n"
+              "dielectric = [{ thickness = \"500 nm\", permittivity = 3.9 }]\n"
+              "[accuracy]\nlevel = \"draft\"\ngrid = 32\n" +
+                  touching);
+  return path;
+}
+DriveCase gap_of(const std::string& design) {
+  return read_drive_case(kFingertip, {"gap.design=" + design, "gap.skins=1"});
+}
+
+// By every closure: of the ridges' patches that touch, where they share the load.
+TEST(DriveFile, TheAreaOfADesignCarriesTheLoadAtThePressureOfItsPatches) {
+  for (const char* closure : {"uniform", "persson", "balance"}) {
+    const std::string path =
+        few_pixels("closure.toml", std::string("[model]\nclosure = \"") + closure + "\"\n");
+    DriveCase c = gap_of(path);
+    c.gap.contact_spots = true;
+    const DriveResult r = solve_drive(c);
+    const Design design = read_design(path);
+    Scene scene = scene_of(design);
+    scene.finger.load = 1;
+    const double rh = c.gap.relative_humidity;
+    const PatchPicture patch = picture_patch(scene, design.texture, fidelity_of(design), rh);
+    EXPECT_NEAR(r.area * patch.pressure, 1, 1e-9) << closure;
+    EXPECT_GT(r.spots, 0) << closure;
+    EXPECT_GT(r.network.gap.layer.resistance, 0) << closure;
+    EXPECT_LE(r.network.gap.layer.resistance, r.spots) << closure;
+    EXPECT_GT(r.carrier.mean_force, 0) << closure;
+  }
+}
+
+// A smooth pin leaves no gap, and no pin has the spots of skin.
+TEST(DriveFile, WhatAPinHasNotIsRefused) {
+  const std::string pin =
+      "[environment]\nrelative_humidity = [\"50 %\"]\n[counterface]\ntype = \"pin\"\n"
+      "load = \"1 N\"\nmodulus = \"1 GPa\"\npoisson = 0.3\ncoefficient = 0.2\nface = "
+      "\"flat\"\narea = \"1 mm2\"\n";
+  const auto refused = [](const DriveCase& c) { return refusal_of([&] { solve_drive(c); }); };
+  EXPECT_NE(refused(gap_of(few_pixels("smooth_pin.toml", pin))).find("touch everywhere"),
+            std::string::npos);
+  DriveCase rough = gap_of(few_pixels("rough_pin.toml", pin + "roughness = { rms = \"1 um\" }\n"));
+  EXPECT_EQ(solve_drive(rough).spots, 0);
+  rough.gap.contact_spots = true;
+  EXPECT_NE(refused(rough).find("a pin has none"), std::string::npos);
 }
 
 }  // namespace

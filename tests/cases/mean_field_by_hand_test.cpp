@@ -270,6 +270,24 @@ TEST(MeanFieldByHand, CurvesOfAConstantVoltageAndOfNone) {
   EXPECT_TRUE(mean_field_curves(c).step.empty());
 }
 
+// Far below its corner of 18 kHz the gap is a short: film and skin hold the voltage. Far above it
+// is one of air.
+TEST(MeanFieldByHand, AGapThatConductsLeavesTheCapacitanceOfTheLayers) {
+  MeanFieldCase c = own_case();
+  c.sweep = {};
+  c.interface.lossy_skin = false;
+  c.interface.skin_equivalent = 40e-9;
+  c.interface.gap_resistivity = 1e6;
+  c.drive.frequency = 1e-3;
+  const double layers = kVacuumPermittivity * 50e-6 / 0.54e-6;
+  EXPECT_NEAR(solve_mean_field(c).point.capacitance, layers, 1e-4 * layers);
+  c.drive.frequency = 1e9;
+  const double conducting = solve_mean_field(c).point.capacitance;
+  c.interface.gap_resistivity = 0;
+  EXPECT_NEAR(conducting, solve_mean_field(c).point.capacitance, 1e-6 * conducting);
+  EXPECT_LT(conducting, 0.5 * layers);
+}
+
 TEST(MeanFieldByHand, MistakesOfAFileAreToldUnderTheirKeys) {
   EXPECT_EQ(refused({}), "");
   const std::string order = "roughness.roll_off: expected lowest <= roll_off < cutoff\n";
@@ -292,6 +310,15 @@ TEST(MeanFieldByHand, MistakesOfAFileAreToldUnderTheirKeys) {
   EXPECT_EQ(knots("0.9e3"), "roughness.wave_number: expected rising wave numbers\n");
   EXPECT_EQ(refused({"drive.control=current", "drive.current=1 mA"}),
             "drive.control: the mean field takes a voltage; see papilla solve drive\n");
+  // Its corner is at 46.1 Hz, and 1 Hz is the lowest of the sweep.
+  const std::string leaks = "interface.dielectric.0.resistivity=1e8 ohm m";
+  EXPECT_EQ(refused({leaks}),
+            "interface.dielectric.0.resistivity: the mean field takes films that insulate, and "
+            "below 4609 Hz this one conducts, 1 Hz are asked for: take higher frequencies, a "
+            "resistivity of 0 for an insulator, or papilla evaluate with a pin\n");
+  EXPECT_EQ(refused({leaks, "sweep.frequency=[]", "drive.frequency=5 kHz"}), "");
+  EXPECT_EQ(refused({leaks, "sweep.frequency=[\"0 Hz\"]", "drive.waveform=dc"}), "");
+  EXPECT_EQ(refused({"interface.dielectric.0.resistivity=0 ohm m"}), "");
   const std::string infinite =
       "touch.load: without load the gaps of an infinite body are infinite: "
       "give a load or a finite_size_pressure\n";

@@ -95,6 +95,16 @@ TEST(DriveReport, ALayerThatIsNotThereHasNoNumbers) {
   const std::string text = drive_text(d.c, d.r);
   EXPECT_EQ(text.find("dielectric"), std::string::npos) << text;
   EXPECT_NE(text.find("\nrelaxing         insulator            2 pF"), std::string::npos) << text;
+  // So is each layer of the film that leaks at another time constant.
+  d.r.network.dielectric = {kInfinity, 3e-12};
+  d.r.network.apart = {{5e6, 4e-12}};
+  EXPECT_NE(drive_text(d.c, d.r).find("\ndielectric       insulator            3 pF   corner 0 Hz\n"
+                                      "dielectric          5 Mohm            4 pF"),
+            std::string::npos)
+      << drive_text(d.c, d.r);
+  const auto apart = nlohmann::json::parse(drive_json(d.c, d.r))["dielectric_apart"];
+  ASSERT_EQ(apart.size(), 1u);
+  EXPECT_EQ(apart[0]["resistance"], 5e6);
 }
 
 TEST(DriveReport, OfManyLinesShowsTheStrongestByFrequency) {

@@ -15,6 +15,12 @@ namespace papilla::capillary {
 
 BridgeTable::BridgeTable(double theta1, double theta2, int nodes) {
   using namespace bridge_branch;
+  // At 180 deg the meniscus ends on its plate as a tangent, and Newton's equations on the way to
+  // the rupture, where it leaves at a point, have no slope: the cosine of this angle is that one to
+  // 1e-12.
+  constexpr double kDry = kPi - 1e-6;
+  theta1 = std::min(theta1, kDry);
+  theta2 = std::min(theta2, kDry);
   Limit end;
   limits_ = limits_and_end(theta1, theta2, end);
   if (limits_.status != BridgeStatus::Converged || limits_.rupture == 0) return;

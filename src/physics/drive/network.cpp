@@ -54,7 +54,9 @@ GapElement rough_gap(double mean_inverse, double mean_inverse_square, double h0,
 Transfer transfer(const Network& network, DriveControl control, double frequency) {
   // Gap and skin, then the layers of the film.
   std::vector<const ImpedanceLayer*> layers{&network.gap.layer, &network.skin, &network.dielectric};
-  for (const ImpedanceLayer& layer : network.relaxing) layers.push_back(&layer);
+  for (const auto* others : {&network.relaxing, &network.apart}) {
+    for (const ImpedanceLayer& layer : *others) layers.push_back(&layer);
+  }
   const auto of_film = [](const std::vector<std::complex<double>>& each) {
     return std::accumulate(each.begin() + 2, each.end(), std::complex<double>(0));
   };

@@ -48,6 +48,7 @@ struct Network {
   ImpedanceLayer dielectric, skin;
   GapElement gap;
   std::vector<ImpedanceLayer> relaxing{};  // layers of the film whose permittivity does
+  std::vector<ImpedanceLayer> apart{};     // others that leak at another time constant
   // Across a current source: its output resistance, or one that keeps charge from building up
   // [ohm]; the voltage source does not feel it.
   double shunt = kInfinity;
@@ -58,7 +59,7 @@ struct Network {
 // has no answer (infinite). Eq. drive.4
 struct Transfer {
   std::complex<double> gap_voltage, source_voltage, current;
-  std::complex<double> film_voltage = 0;  // across the dielectric, its relaxing layers included
+  std::complex<double> film_voltage = 0;  // across the dielectric, all of its layers
 };
 Transfer transfer(const Network& network, DriveControl control, double frequency);
 

@@ -139,6 +139,22 @@ ForceSeries force_series(const Network& network, DriveControl control, const Sig
   return out;
 }
 
+DriveResponse carrier_response(const Network& network, DriveControl control, Waveform waveform,
+                               double amplitude, double frequency) {
+  if (waveform != Waveform::Square)
+    return respond(network, control, amplitude, waveform == Waveform::Dc ? 0 : frequency);
+  constexpr std::size_t kSamples = 4096;  // of a cycle with edges
+  const ForceSeries series =
+      force_series(network, control,
+                   source_signal(waveform, amplitude, frequency, {}, 1, 1 / frequency, kSamples));
+  return {.gap_voltage = series.peak_gap_voltage,
+          .source_voltage = series.peak_source_voltage,
+          .current = series.peak_current,
+          .mean_force = series.mean_force,
+          .ripple = line_amplitude(series.force, 2 * frequency),
+          .film_voltage = series.peak_film_voltage};
+}
+
 std::vector<SpectrumLine> spectrum_lines(const Signal& signal, double highest, double threshold) {
   const SpectrumArray spectrum = transform(signal.value);
   const std::size_t end = std::min(spectrum.size(), line_of(signal, highest) + 1);

@@ -46,6 +46,11 @@ struct ForceSeries {
 };
 ForceSeries force_series(const Network& network, DriveControl control, const Signal& source);
 
+// A carrier without modulation: `respond` of a sine (am too) or a constant, of a square wave the
+// series of one cycle, with the line of its force at twice the frequency. Eqs. drive.5, drive.8
+DriveResponse carrier_response(const Network& network, DriveControl control, Waveform waveform,
+                               double amplitude, double frequency);
+
 struct SpectrumLine {
   double frequency = 0;  // [Hz]
   double amplitude = 0;  // of the cosine; at 0 Hz the mean

@@ -114,13 +114,16 @@ std::complex<double> SkinDielectric::complex_permittivity(double f) const {
   return {permittivity_at(f), 1 / (2 * kPi * f * kVacuumPermittivity * resistivity_at(f))};
 }
 
+std::complex<double> gap_permittivity(double f, double resistivity) {
+  if (resistivity == 0) return 1;
+  return {1, 1 / (2 * kPi * f * kVacuumPermittivity * resistivity)};
+}
+
 std::complex<double> series_thickness(double dielectric_equivalent, double skin_thickness,
                                       const SkinDielectric& skin, double f,
                                       double gap_resistivity) {
-  const std::complex<double> h0 =
-      dielectric_equivalent + skin_thickness / skin.complex_permittivity(f);
-  if (gap_resistivity == 0) return h0;
-  return h0 * std::complex<double>(1, 1 / (2 * kPi * f * kVacuumPermittivity * gap_resistivity));
+  return (dielectric_equivalent + skin_thickness / skin.complex_permittivity(f)) *
+         gap_permittivity(f, gap_resistivity);
 }
 
 }  // namespace papilla::persson

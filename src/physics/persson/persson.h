@@ -188,7 +188,10 @@ struct SkinDielectric {
   // eps + i / (w eps0 rho), fields ~ e^-iwt. Eq. persson.12
   std::complex<double> complex_permittivity(double f) const;
 };
-// Complex h0 [m] = d1/eps1 + d2/eps2(w); with a conducting gap times 1 + i/(w eps0 rho_gap).
+// Of a gap of air that conducts: 1 + i/(w eps0 rho), by which the d/eps of layers in series with it
+// is multiplied. resistivity [ohm m]; 0: it insulates. Eq. persson.12
+std::complex<double> gap_permittivity(double f, double resistivity);
+// Complex h0 [m] = d1/eps1 + d2/eps2(w), times the permittivity of the gap.
 std::complex<double> series_thickness(double dielectric_equivalent, double skin_thickness,
                                       const SkinDielectric& skin, double f,
                                       double gap_resistivity = 0 /*0: insulating*/);
