@@ -51,7 +51,7 @@ class Design {
 
   // A file, or the text of one, with values that replace its own. A study is a design too. A file
   // that is not there is looked for in the designs folders. Both throw InputError with every
-  // problem.
+  // problem but more droplets than can be settled, which only what simulates minds.
   static Design read(const std::string& file, const Values& values = {});
   static Design parse(const std::string& toml, const Values& values = {});
 
@@ -73,6 +73,10 @@ class Design {
   // without a title stays without one.
   Design with(const Values& values) const;
   Design with(const std::string& path, const std::string& value) const;
+
+  // Throws InputError where no simulation settles it (too many droplets on its patch): evaluate(),
+  // rank() and a study then refuse it, while export_files() and heights() draw it.
+  void require_simulated() const;
 
   double number(const std::string& path) const;  // SI; throws InputError for a path that is none
   std::vector<Number> numbers() const;           // every number that a path names

@@ -48,6 +48,7 @@ struct TellOptions {
   bool replace = false;
   int threads = 0;
   std::function<void(const std::string&)> progress;  // for people; may be empty
+  const std::atomic<bool>* stop = nullptr;  // set by another thread: tell_lab() throws Stopped
 };
 
 struct TellResult {
@@ -56,7 +57,7 @@ struct TellResult {
 };
 
 // Tables of friction, and records of a tribometer. A file that is refused keeps none of the others
-// back. Throws InputError where the folder is no lab.
+// back. Throws InputError where the folder is no lab, Stopped.
 TellResult tell_lab(const std::string& folder, const std::vector<std::string>& files,
                     const TellOptions& options = {});
 

@@ -19,6 +19,7 @@ struct RankOptions {
   int threads = 0;                 // 0: all processors
   bool parameters = false;         // insist on what the finger's fitted numbers leave open
   bool any_conditions = false;     // compare designs under other conditions all the same
+  bool force = false;              // with model options that a finger was not fitted with
   std::vector<std::string> names;  // of the candidates; empty: titles, numbered where alike
   std::function<void(const std::string&)> progress;  // for people; may be empty
   const std::atomic<bool>* stop = nullptr;           // set by another thread: rank() throws Stopped
@@ -26,7 +27,9 @@ struct RankOptions {
 
 struct Ranked {
   std::size_t index = 0;  // into the designs as given
-  int rank = 1;  // ties share the better rank; without a score 1 + how many are better in all
+  // 1 + how many are ahead beyond doubt: by the score, or without one in some criterion and behind
+  // in none; ties share the better rank.
+  int rank = 1;
   std::vector<double> p_best_by;  // of each criterion: probability of the best value
   // Where there is one score: with its 95 % interval, and the probability of the highest.
   double score = 0, low = 0, high = 0, p_best = 0;

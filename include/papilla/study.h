@@ -84,10 +84,10 @@ class Study {
   std::vector<double> own_values() const;
 
   // Values of the variables, SI, in their order. judge() runs the model on every finger and
-  // scenario, as accurately as a search does; a shape that breaks a limit is refused at once. stop:
-  // as of evaluate().
+  // scenario, as accurately as a search does; a shape that breaks a limit is refused at once. stop,
+  // force: as of evaluate().
   Judgement judge(const std::vector<double>& values, int threads = 0,
-                  const std::atomic<bool>* stop = nullptr) const;
+                  const std::atomic<bool>* stop = nullptr, bool force = false) const;
 
   // Searches, confirms and checks, and writes the folder of results, as `papilla optimize`. Works
   // in processes forked from this one: call it before other threads are started.

@@ -59,6 +59,7 @@ void bind_design(py::module_& module) {
           "with_",
           [](const Design& self, const Design::Values& values) { return self.with(values); },
           py::arg("values"))
+      .def("require_simulated", &Design::require_simulated)
       .def("number", &Design::number, py::arg("path"))
       .def("numbers",
            [](const Design& self) {

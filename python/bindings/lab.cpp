@@ -56,7 +56,7 @@ void bind_lab(py::module_& module) {
             [=](Job& job) {
               return tell_lab(folder, files,
                               {said.at(0), said.at(1), said.at(2), said.at(3), said.at(4),
-                               said.at(5), replace, threads, noted(job)});
+                               said.at(5), replace, threads, noted(job), job.stop()});
             },
             progress);
         py::list refused;

@@ -70,12 +70,12 @@ void bind_study(py::module_& module) {
       .def("design", &Study::design, py::arg("values"))
       .def(
           "judge",
-          [](const Study& self, const std::vector<double>& values, int threads) {
-            return judgement_row(run_job([self, values, threads](Job& job) {
-              return self.judge(values, threads, job.stop());
+          [](const Study& self, const std::vector<double>& values, int threads, bool force) {
+            return judgement_row(run_job([self, values, threads, force](Job& job) {
+              return self.judge(values, threads, job.stop(), force);
             }));
           },
-          py::arg("values"), py::arg("threads"))
+          py::arg("values"), py::arg("threads"), py::arg("force"))
       .def("run", &run_study, py::arg("folder"), py::arg("resume"), py::arg("finish"),
            py::arg("force"), py::arg("pick"), py::arg("progress"));
 

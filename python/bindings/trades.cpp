@@ -55,18 +55,18 @@ void bind_trades(py::module_& module) {
       "rank",
       [](const std::vector<Design>& designs, const std::string& by,
          const std::vector<double>& weights, const std::string& states, int max_skins, int threads,
-         bool parameters, bool any_conditions, const std::vector<std::string>& names,
+         bool parameters, bool any_conditions, bool force, const std::vector<std::string>& names,
          const py::object& progress) {
         return ranking_row(run_job(
             [=](Job& job) {
               return rank(designs, {by, weights, states, max_skins, threads, parameters,
-                                    any_conditions, names, noted(job), job.stop()});
+                                    any_conditions, force, names, noted(job), job.stop()});
             },
             progress));
       },
       py::arg("designs"), py::arg("by"), py::arg("weights"), py::arg("states"),
       py::arg("max_skins"), py::arg("threads"), py::arg("parameters"), py::arg("any_conditions"),
-      py::arg("names"), py::arg("progress"));
+      py::arg("force"), py::arg("names"), py::arg("progress"));
   module.def(
       "calibrate",
       [](const std::string& file, const std::string& folder, int threads,

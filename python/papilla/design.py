@@ -115,7 +115,8 @@ class Design:
 
     Texts carry units ("350 nm"); bare numbers are in the SI unit of their key (350e-9). ``base`` names a file whose
     keys hold where none are given, looked for in the working folder and in the designs folder. Every key:
-    docs/reference. Raises InputError with every mistake at once.
+    docs/reference. Raises InputError with every mistake at once; a design with more droplets than can be settled is drawn
+    and exported, and refused where it is simulated.
     """
 
     _inside: _native.Design
@@ -171,7 +172,7 @@ class Design:
         call. Of another kind, ``"texture.type"``, it has what is given here alone. The title says what was changed,
         unless it is given. Raises InputError.
         """
-        return self._of(self._inside.with_(v.settings({**(values or {}), **by_name})))
+        return self._of(self._inside.with_(v.settings({**_without_version({} if values is None else values), **by_name})))
 
     def __getitem__(self, path: str) -> float:
         """A number by its key, SI: ``d["texture.depth"]``. Raises InputError for a key that is none."""
@@ -228,7 +229,8 @@ class Design:
         return Heights(made.z, made.dx, made.dy)
 
     def look(self) -> Look:
-        """Haze, transmittance, gloss and colour on glass. Takes a second at most."""
+        """Haze, transmittance, gloss and colour on glass. Takes a second; where the theory is "rigorous"
+        (docs/theory/optics.md) half a minute and more."""
         return Look(**self._inside.look())
 
     def evaluate(self, level: str = "", target: float = 0.0, *, threads: int = 0, model: bool = True, parameters: bool = False,

@@ -74,6 +74,12 @@ def contact(z: Map, size: Size | None = None, *, pressure: Quantified, modulus: 
     if (modulus is None) == (layer_modulus is None):
         raise wrong("modulus", "give modulus (E* of a half-space), or layer_modulus with bulk_modulus")
     if modulus is not None:
+        given = [name for name, value, default in (
+            ("layer_thickness", layer_thickness, 0.0), ("layer_poisson", layer_poisson, 0.5),
+            ("bulk_modulus", bulk_modulus, None), ("bulk_poisson", bulk_poisson, 0.5))
+            if value is not default and not (isinstance(value, (int, float)) and value == default)]
+        if given:
+            raise wrong(given[0], "is of layer_modulus, a layer on a half-space; modulus is of all of it")
         e = v.positive(modulus, "Pa", "modulus")
         solid = [e, 0.0, 0.0, e, 0.0]
     else:
@@ -221,6 +227,8 @@ def field(gap: Map, size: Size | None = None, *, voltage: Quantified, thickness:
     below = None if surface is None else v.height_map(surface, "surface")
     if below is not None and below.shape != heights.shape:
         raise wrong("surface", f"expected the shape of the gap, {heights.shape}, got {below.shape}")
+    if isinstance(surface, Heights) and not np.allclose((surface.dx, surface.dy), (dx, dy), rtol=1e-6, atol=0):
+        raise wrong("surface", f"expected the pixels of the gap, {dx:.4g} x {dy:.4g} m, got {surface.dx:.4g} x {surface.dy:.4g} m")
     if method not in ("local", "spread", "full"):
         raise wrong("method", f'expected "local", "spread" or "full", got {method!r}')
     return Field(**_native.field(

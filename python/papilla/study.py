@@ -378,16 +378,19 @@ class Study:
         """The design that these values make. Raises InputError."""
         return Design._of(self._inside.design(self._numbers(values)))
 
-    def judge(self, values: Values, *, threads: int = 0) -> Judgement:
+    def judge(self, values: Values, *, threads: int = 0, force: bool = False) -> Judgement:
         """The model on every finger and scenario, as accurately as a search: a second or less.
 
         The numbers are for ranking designs, at the coarse level of searches. Friction and contact areas are corrected
         for what its pixels leave out of the skin (Eq. accuracy.17). ``errors`` hold the scatter between skins, not what
         else the level differs from ``evaluate`` by.
 
-        values: by path (variables that are left out have the study's own values), or all in their order. A shape that breaks a limit is refused at once: ``ok`` is False. Raises InputError, KeyboardInterrupt.
+        values: by path (variables that are left out have the study's own values), or all in their order. A shape that breaks
+        a limit is refused at once: ``ok`` is False. force: with model options that a finger of the study was not fitted with.
+        Raises InputError, KeyboardInterrupt.
         """
-        return _judgement(self._inside.judge(self._numbers(values), v.whole(threads, "threads", 0, 4096)))
+        return _judgement(self._inside.judge(self._numbers(values), v.whole(threads, "threads", 0, 4096),
+                                             v.flag(force, "force")))
 
     def ask(self, n: int = 0) -> list[Point]:
         """The next designs that the study's method wants to know; empty: nothing more to try, or as many designs were told

@@ -111,6 +111,7 @@ def sweep(design: Design, values: Values, *, level: str = "", threads: int = 0, 
     for point in points:
         try:
             designs.append(design.with_(point))
+            designs[-1]._inside.require_simulated()
         except InputError as error:
             problems += [problem for problem in error.problems if problem not in problems]
     if problems:

@@ -27,7 +27,7 @@ class Ranked:
     index: int
     """Into the designs as given."""
     rank: int
-    """1 + how many are ahead beyond doubt; without a score, how many are better in all."""
+    """1 + how many are ahead beyond doubt: by the score, or without one in some criterion and behind in none."""
     p_best_by: list[float]
     """Of each criterion: probability of the best value."""
     score: float
@@ -66,13 +66,14 @@ class Ranking:
 
 def rank(designs: Sequence[Design], by: str = "", *, weights: Sequence[float] = (), states: str = "",
          names: Sequence[str] = (), max_skins: int = 96, threads: int = 0, parameters: bool = False,
-         any_conditions: bool = False, progress: Progress = None) -> Ranking:
+         any_conditions: bool = False, force: bool = False, progress: Progress = None) -> Ranking:
     """Which design is better, and how sure that is: ``papilla rank``.
 
     by: criteria, "friction:low,variation(modulation):low"; empty: modulation, of undriven designs friction and
     adhesion. weights: of the criteria, for one score. states: "clean,natural,wet"; empty: the one that all
     fingers are in. names: of the designs in messages; empty: their
-    titles, numbered where two are alike. max_skins: per design and state, 6 at least. progress: called with a text.
+    titles, numbered where two are alike. max_skins: per design and state, 6 at least. any_conditions: also designs under
+    other conditions. force: with model options that a finger was not fitted with. progress: called with a text.
 
     Raises InputError, KeyboardInterrupt. Source: docs/theory/ranking.md.
     """
@@ -89,7 +90,7 @@ def rank(designs: Sequence[Design], by: str = "", *, weights: Sequence[float] = 
         [d._inside for d in designs], v.text(by, "by"), [v.positive(w, "", "weights") for w in v.items(weights, "weights")],
         v.text(states, "states"), v.whole(max_skins, "max_skins", 6, 100000), v.whole(threads, "threads", 0, 4096),
         v.flag(parameters, "parameters"), v.flag(any_conditions, "any_conditions"),
-        [v.text(n, "names") for n in names], shown(progress, "rank")))
+        v.flag(force, "force"), [v.text(n, "names") for n in names], shown(progress, "rank")))
 
 
 @dataclass(frozen=True)

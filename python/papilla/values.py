@@ -6,7 +6,7 @@ import json
 import math
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from typing import Any, Union
 
 import numpy as np
@@ -87,7 +87,7 @@ def si(value: Quantified, unit: str, key: str) -> float:
     """The value in SI; a text must have the dimension of ``unit``."""
     if isinstance(value, str):
         try:
-            return _native.in_si(value, unit)
+            return _native.in_si(_unicode(value, key), unit)
         except InputError as error:
             raise InputError([Problem("", 0, 0, key, p.message) for p in error.problems]) from None
     number = _number(value, key)
@@ -139,6 +139,15 @@ def flag(value: object, key: str) -> bool:
 def text(value: object, key: str) -> str:
     if not isinstance(value, str):
         raise wrong(key, f"expected a text, got {type(value).__name__}")
+    return _unicode(value, key)
+
+
+def _unicode(value: str, key: str) -> str:
+    """The text. Raises InputError for one that is none, as names of files are that are not in UTF-8."""
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise wrong(key, f"expected a text of Unicode characters, got {value!r}") from None
     return value
 
 
@@ -155,7 +164,7 @@ def items(values: Any, key: str) -> list[Any]:
 def path(value: Path, key: str) -> str:
     if not isinstance(value, (str, os.PathLike)):
         raise wrong(key, f"expected the name of a file, got {type(value).__name__}")
-    return os.fspath(value)
+    return text(os.fspath(value), key)
 
 
 def named_file(value: Path, key: str) -> str:
@@ -251,15 +260,11 @@ def _toml(value: Any, key: str) -> str:
     if isinstance(value, str):
         if "\x7f" in value:
             raise wrong(key, "expected a text without control characters")
-        try:
-            value.encode()
-        except UnicodeEncodeError:
-            raise wrong(key, "expected a text of Unicode characters") from None
-        return json.dumps(value, ensure_ascii=False)
+        return json.dumps(_unicode(value, key), ensure_ascii=False)
     if isinstance(value, Mapping):
         members = (f"{json.dumps(str(k), ensure_ascii=False)} = {_toml(v, f'{key}.{k}')}"
                    for k, v in value.items())
         return "{ " + ", ".join(members) + " }"
-    if isinstance(value, Iterable):
+    if isinstance(value, Iterable) and not isinstance(value, (bytes, bytearray, Set)):  # sets have no order
         return "[" + ", ".join(_toml(v, f"{key}.{i}") for i, v in enumerate(value)) + "]"
     raise wrong(key, f"expected a number, a text, a list or a dict, got {type(value).__name__}")

@@ -127,6 +127,10 @@ def cases(count: int) -> list[Case]:
             ("polarity", lambda: good.export("nowhere", ["tiff"], polarity="up")), ("bmp", lambda: good.export("nowhere", ["bmp"])),
             ("index", lambda: pp.haze(flat, "6 um", index=9)), ("angles", lambda: pp.haze(flat, "6 um", angles=["80 deg"])),
             ("path", lambda: pp.verify(3)),  # type: ignore[arg-type]
+            ("surface", lambda: pp.field(flat, "6 um", voltage=1, surface=pp.Heights(flat, 1e-3, 1e-3))),
+            ("path", lambda: pp.verify("\udcff")), ("values", lambda: good.with_([("texture.depth", 3e-7)])),  # type: ignore[arg-type]
+            ("relative_humidity", lambda: good.with_({"environment.relative_humidity": {0.3, 0.5}})),
+            ("title", lambda: good.with_({"title": b"x"})),
             ("theta1", lambda: pp.bridge("1 um3", "1 nm", "190 deg", 1)), ("gap", lambda: pp.bridge("1 um3", 0, 1, 1)),
         ])
 
@@ -155,6 +159,23 @@ def test_every_mistake_is_said_with_its_place(tmp_path: pathlib.Path) -> None:
     assert first.text == f'{file}:4:10: texture.period: needs a unit, e.g. "3 um"'
     assert second.line == 5 and "depth" in second.message
     assert pickle.loads(pickle.dumps(caught.value)).problems == caught.value.problems
+
+
+def test_what_no_simulation_settles_is_drawn_alone(tmp_path: pathlib.Path) -> None:
+    wet = pp.Design({**HOLES, "base": "m3_samples/common.toml", "finger.water.drops_per_um3": 100_000})
+    assert len(wet.export(tmp_path / "e", "npy", pixels=64).files) == 1
+    dry = wet.with_({"finger.water.drops_per_um3": 100})
+    for call in (wet.evaluate, lambda: pp.sweep(dry, {"finger.water.drops_per_um3": [100, 100_000]}),
+                 lambda: pp.Study({**STUDY, "finger.water.drops_per_um3": 100_000})):
+        with pytest.raises(pp.InputError, match="finger.water.drops_per_um3.*droplets on a patch"):
+            call()
+
+
+def test_a_half_space_has_no_layer() -> None:
+    z = np.zeros((8, 8))
+    for name, given in (("layer_thickness", "1 um"), ("layer_poisson", 0.4), ("bulk_modulus", "1 MPa"), ("bulk_poisson", 0.3)):
+        with pytest.raises(pp.InputError, match=f"^{name}: is of layer_modulus"):
+            pp.contact(z, "1 um", pressure="1 kPa", modulus="1 MPa", **{name: given})  # type: ignore[arg-type]
 
 
 def test_damaged_files_are_refused(tmp_path: pathlib.Path) -> None:

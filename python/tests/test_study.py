@@ -144,6 +144,13 @@ def test_a_model_that_the_finger_was_not_fitted_with_is_refused(tmp_path: pathli
     with pytest.raises(pp.InputError, match="was fitted with(.|\n)*set `force`"):
         pp.Study({**STUDY, "model": {"rim_pinning": True}}).optimize(tmp_path / "new")
     assert not (tmp_path / "new").exists()
+    thin = pp.Study({**STUDY, "model": {"rim_pinning": True}, "constraints": {"min_wall": "3.5 um"}})
+    with pytest.raises(pp.InputError, match="was fitted with(.|\n)*set `force`"):
+        thin.judge([3e-7, 1.0])
+    assert "wall" in thin.judge([3e-7, 1.0], force=True).reason
+    flat = pp.Design({"base": "m3_samples/flat.toml", "model": {"rim_pinning": True}})
+    with pytest.raises(pp.InputError, match="was fitted with(.|\n)*set `force`"):
+        pp.rank([flat, flat.with_({"surface.contact_angle": "60 deg"})])
 
 
 @pytest.mark.slow

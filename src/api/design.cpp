@@ -17,10 +17,12 @@
 namespace papilla::api {
 namespace {
 
+// One that no simulation settles has its shape, its files and its look all the same.
 void read_study_of(Design::Inside& inside) {
   const std::vector<std::string> changes = overrides(inside.values);
-  inside.study = inside.file.empty() ? parse_study(inside.text, "design.toml", changes)
-                                     : read_study(inside.file, changes);
+  inside.study = inside.file.empty()
+                     ? parse_study(inside.text, "design.toml", changes, DesignUse::Drawn)
+                     : read_study(inside.file, changes, DesignUse::Drawn);
 }
 
 std::shared_ptr<const Design::Inside> loaded(Design::Inside inside) {
@@ -192,6 +194,15 @@ Design Design::with(const Values& values) const {
 
 Design Design::with(const std::string& path, const std::string& value) const {
   return with(Values{{path, value}});
+}
+
+void Design::require_simulated() const {
+  across([&] {
+    std::vector<rooms::Problem> problems;
+    for (const DesignProblem& p : design_problems(inside_->design()))
+      problems.push_back({inside_->file, 0, 0, p.path, p.message});
+    if (!problems.empty()) throw rooms::InputError(std::move(problems));
+  });
 }
 
 double Design::number(const std::string& path) const {

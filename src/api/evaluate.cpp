@@ -72,6 +72,7 @@ void require_threads(int threads) {
 rooms::Design at_options(const Design& design, const EvaluateOptions& options) {
   const rooms::Design& own = design.inside().design();
   require_threads(options.threads);
+  design.require_simulated();
   if (!options.force) require_fitted_model(own, design.inside().file, "set `force`");
   if (!(options.target >= 0 && options.target < 1))
     throw wrong("target", "expected a share from 0 to 1");

@@ -1,5 +1,7 @@
 #include "papilla/files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -14,6 +16,15 @@ namespace papilla::api {
 
 namespace {
 
+// As `papilla export` takes them.
+constexpr double kLargestSide = 1;  // [m]
+constexpr int kFewestPixels = 8, kMostPixels = 65536;
+
+void require_tolerance(double tolerance) {
+  if (!(tolerance > 0 && tolerance < 1))
+    throw wrong("tolerance", fmt::format("expected a share from 0 to 1, got {}", tolerance));
+}
+
 Verdict verdict_of(const Verification& v) {
   return {v.pixels.min_hole, v.pixels.min_wall, v.design, v.file, v.loss, v.faults};
 }
@@ -25,7 +36,12 @@ Exported export_files(const Design& design, const std::string& folder,
   return across([&] {
     rooms::ExportOptions inside;
     inside.formats = options.formats;
-    if (!(options.size >= 0)) throw wrong("size", "expected a width, or 0 for about 12 um");
+    if (!(options.size >= 0 && options.size <= kLargestSide))
+      throw wrong("size", "expected a width of at most 1 m, or 0 for about 12 um");
+    if (options.pixels < kFewestPixels || options.pixels > kMostPixels) {
+      throw wrong("pixels", fmt::format("expected {} to {}, got {}", kFewestPixels, kMostPixels,
+                                        options.pixels));
+    }
     inside.size = options.size;
     inside.pixels = options.pixels;
     if (options.polarity == "white-high" || options.polarity == "white-deep") {
@@ -44,16 +60,20 @@ Exported export_files(const Design& design, const std::string& folder,
     const Export done = export_with_record(study, inside, folder);
     Exported out;
     for (const ExportedFile& file : done.files) out.files.push_back(file.path);
-    out.warnings = done.warnings;
+    for (const std::string& warning : done.warnings) out.warnings.push_back(in_arguments(warning));
     const ExportVerdict verdict{verify_files(record_of(study, inside, done), done), {}};
-    for (const std::string& fault : fault_lines(verdict)) out.warnings.push_back(fault);
+    for (const std::string& fault : fault_lines(verdict))
+      out.warnings.push_back(in_arguments(fault));
     out.heights = heights_of(done.heightmap);
     return out;
   });
 }
 
 Verdict verify(const Design& design, const std::string& file, double tolerance) {
-  return across([&] { return verdict_of(verify_export(design.inside().study, file, tolerance)); });
+  return across([&] {
+    require_tolerance(tolerance);
+    return verdict_of(verify_export(design.inside().study, file, tolerance));
+  });
 }
 
 bool FolderVerdict::sound() const {
@@ -64,6 +84,7 @@ bool FolderVerdict::sound() const {
 
 std::vector<FolderVerdict> verify(const std::string& path, const VerifyOptions& options) {
   return across([&] {
+    require_tolerance(options.tolerance);
     std::vector<FolderVerdict> out;
     for (const ExportPlace& place : export_places(path)) {
       const ExportVerdict judged = judge_export(place, {options.geometry, options.tolerance});

@@ -48,6 +48,7 @@ TellResult tell_lab(const std::string& folder, const std::vector<std::string>& f
                     const TellOptions& options) {
   return across([&] {
     require_threads(options.threads);
+    const Watch watch({}, options.stop);
     const TellRun run{folder,
                       files,
                       {options.experiment, options.field, options.design, options.finger,

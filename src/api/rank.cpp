@@ -8,6 +8,7 @@
 #include "api/inside.h"
 #include "base/text.h"
 #include "base/watch.h"
+#include "estimate/evaluation.h"
 #include "papilla/rank.h"
 #include "report/ranking.h"
 
@@ -78,6 +79,10 @@ Ranking rank(const std::vector<Design>& designs, const RankOptions& options) {
     std::vector<rooms::Design> candidates;
     for (const Design& design : designs) candidates.push_back(design.inside().design());
     rooms::RankOptions inside = inner(candidates, options);
+    if (inside.felt()) {
+      for (const Design& design : designs) design.require_simulated();
+    }
+    if (inside.felt() && !options.force) require_fitted_model(candidates, "", "set `force`");
     if (inside.names.empty()) inside.names = names_by_title(candidates);
     std::vector<Regions> regions;
     for (const rooms::Design& design : candidates) regions.push_back({design});

@@ -28,8 +28,10 @@ struct Study::Inside {
 
 namespace {
 
-std::shared_ptr<const Study::Inside> judged_by(const rooms::Study& study) {
+std::shared_ptr<const Study::Inside> judged_by(const Design& design) {
+  const rooms::Study& study = design.inside().study;
   if (!study.is_study()) throw rooms::InputError("expected a study: it has no [design_space]");
+  design.require_simulated();
   auto inside = std::make_shared<Study::Inside>();
   inside->study = study;
   inside->problem.emplace(inside->study);
@@ -115,11 +117,11 @@ Outcome outcome_of(const StudyProblem& problem, const Judgement& judgement) {
 }  // namespace
 
 Study Study::read(const std::string& file, const Design::Values& values) {
-  return across([&] { return Study(judged_by(Design::read(file, values).inside().study)); });
+  return across([&] { return Study(judged_by(Design::read(file, values))); });
 }
 
 Study Study::parse(const std::string& toml, const Design::Values& values) {
-  return across([&] { return Study(judged_by(Design::parse(toml, values).inside().study)); });
+  return across([&] { return Study(judged_by(Design::parse(toml, values))); });
 }
 
 const std::vector<Variable>& Study::variables() const { return inside_->variables; }
@@ -134,7 +136,7 @@ Design Study::design(const std::vector<double>& values) const {
     made.study.design = design_at(*inside_->problem, values);
     made.study.design.title = title_as_changed(inside_->study.design, made.study.design);
     made.text = to_toml(made.study.design);
-    made.study = parse_study(made.text, "design.toml");
+    made.study = parse_study(made.text, "design.toml", {}, DesignUse::Drawn);
     return Design(std::make_shared<const Design::Inside>(std::move(made)));
   });
 }
@@ -142,10 +144,11 @@ Design Study::design(const std::vector<double>& values) const {
 std::vector<double> Study::own_values() const { return inside_->problem->space().own_values(); }
 
 Judgement Study::judge(const std::vector<double>& values, int threads,
-                       const std::atomic<bool>* stop) const {
+                       const std::atomic<bool>* stop, bool force) const {
   return across([&] {
     require_threads(threads);
     const StudyProblem& problem = *inside_->problem;
+    if (!force) require_fitted_fingers(problem, "", "set `force`");
     const rooms::Design design = design_at(problem, values);
     if (const std::string refused = problem.constraints().geometry_reason(design); !refused.empty())
       return Judgement{false, refused, {}, {}, {}};

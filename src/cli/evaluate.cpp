@@ -144,6 +144,7 @@ int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& des
     Design changed = design;
     set_number(changed, sweep.path, value);
     Response response = evaluate(scene_of(changed), changed.texture, fidelity);
+    set_bridged_margins(response, scene_of(changed), changed.texture);
     if (look) response.appearance = appearance_of(changed);
     if (!first) first = response;
     moved = moved || response.points != first->points ||

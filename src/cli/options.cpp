@@ -1,8 +1,11 @@
 #include "cli/options.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "base/error.h"
@@ -68,7 +71,15 @@ Option Option::check(const std::function<std::string(const std::string&)>& mista
 
 template <typename T>
 Option Option::range(T low, T high) const {
-  return Option(option_->check(CLI::Range(low, high)));
+  option_->check(CLI::Range(low, high));
+  if constexpr (std::is_floating_point_v<T>) {
+    // NaN is neither below the range nor above it.
+    option_->check([](const std::string& text) {
+      return std::isnan(std::strtod(text.c_str(), nullptr)) ? "expected a number, got " + text
+                                                            : std::string();
+    });
+  }
+  return Option(option_);
 }
 template Option Option::range(int, int) const;
 template Option Option::range(long, long) const;

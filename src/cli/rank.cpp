@@ -14,6 +14,7 @@
 #include "cli/scan_options.h"
 #include "design/scans.h"
 #include "design/title.h"
+#include "estimate/evaluation.h"
 #include "geometry/io/files.h"
 #include "rank/conditions.h"
 #include "report/ranking.h"
@@ -25,7 +26,8 @@ struct RankCommand {
   std::vector<std::string> files, overrides;
   std::string base, by, weights, states, out;
   int max_skins = 96, jobs = 0;
-  bool json = false, parameters = false, no_parameters = false, any_conditions = false;
+  bool json = false, parameters = false, no_parameters = false, any_conditions = false,
+       force = false;
 };
 
 std::vector<FingerState> parse_states(const std::string& text) {
@@ -130,6 +132,7 @@ int run(const Context& context, const RankCommand& command) {
                                                         : "friction:low,adhesion:low");
   options.states = command.states.empty() ? std::vector<FingerState>{common_state(candidates)}
                                           : parse_states(command.states);
+  if (options.felt() && !command.force) require_fitted_model(designs, "", "run with --force");
   options.max_skins = command.max_skins;
   options.threads = command.jobs;
   if (!command.weights.empty()) options.weights = parse_weights(command.weights);
@@ -191,6 +194,8 @@ void add_rank(Command app, Context& context) {
   command.add_flag("--any-conditions", options->any_conditions,
                    "Also designs of different finger, air, drive or accuracy: the order is then "
                    "not of the surfaces alone");
+  command.add_flag("--force", options->force,
+                   "Rank with model options that the finger was not fitted with");
   command.add_option("--out", options->out, "Also write table, CSV, JSON, designs and report.html")
       .type_name("DIR");
   command.add_option("--jobs", options->jobs, "Threads; 0: all processors").range(0, 4096);

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "cli/file_work.h"
 #include "cli/scan_options.h"
 #include "design/study.h"
 #include "forward/appearance.h"
@@ -34,7 +35,14 @@ void expect_fill_below(const OpticalMedia& media) {
                     media.index));
 }
 
-int solve(const HazeOptions& options) {
+// Some theories take half a minute and more.
+Optics looked_at(const Context& context, const Design& design, const std::string& file) {
+  FileWork work(context, "working out");
+  work.progress()("the look of " + file, 0);
+  return appearance_of(design);
+}
+
+int solve(const Context& context, const HazeOptions& options) {
   if (options.design.file.empty() == options.scan.file.empty())
     throw InputError("expected a design FILE or --height FILE");
   if (options.scan.file.empty())
@@ -50,13 +58,15 @@ int solve(const HazeOptions& options) {
   Optics o;
   std::optional<ScanChanges> changes;
   if (options.scan.file.empty()) {
-    Design design = read_study(options.design.file, options.design.overrides).design;
+    // No look has a droplet.
+    Design design =
+        read_study(options.design.file, options.design.overrides, DesignUse::Drawn).design;
     if (options.index > 0) design.surface.refractive_index = options.index;
     if (options.fill > 0) design.view.fill_index = options.fill;
     if (!angles.empty()) design.view.angles = angles;
     expect_fill_below(media_of(design.surface, design.view));
     say_scans({design});
-    o = appearance_of(design);
+    o = looked_at(context, design, options.design.file);
   } else {
     OpticalMedia media;
     if (options.index > 0) media.index = options.index;
@@ -100,8 +110,9 @@ void add_solve_haze(Command solve_command, Context& context) {
           "design's, or 0")
       .repeatable();
   command.add_flag("--json", options->design.json, "One JSON object, SI units");
-  command.on_chosen(
-      [&context, options] { context.action = [options] { return solve(*options); }; });
+  command.on_chosen([&context, options] {
+    context.action = [&context, options] { return solve(context, *options); };
+  });
 }
 
 }  // namespace papilla::cli

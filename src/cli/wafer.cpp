@@ -1,9 +1,11 @@
 // papilla wafer LIST.toml|STUDY.toml|RESULTS: a test wafer with its masks and its manifest.
 #include "report/wafer.h"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/files.h"
@@ -21,11 +23,26 @@ struct WaferCommand {
   bool no_expected = false, no_model = false, json = false;
 };
 
+// A wafer is drawn whatever the model; what is expected of it is another matter.
+std::vector<std::string> unfitted_lines(const WaferPlan& plan) {
+  std::vector<std::string> out;
+  for (const Treatment& t : plan.treatments) {
+    for (const std::string& line : calibration_mismatch(t.design)) {
+      const std::string said = "warning: what is expected is off by tens of percent: " + line;
+      if (std::find(out.begin(), out.end(), said) == out.end()) out.push_back(said);
+    }
+  }
+  return out;
+}
+
 int make_wafer(const Context& context, const WaferCommand& command) {
   const DesignUse use = command.no_expected ? DesignUse::Drawn : DesignUse::Simulated;
   WaferPlan plan = plan_wafer(command.path, command.overrides, use);
   if (const std::string none = none_keeps_text(command.path); !none.empty())
     plan.notes.push_back("warning: " + none);
+  if (!command.no_expected) {
+    for (std::string& line : unfitted_lines(plan)) plan.notes.push_back(std::move(line));
+  }
   check_conditions(plan, use);
   const WaferDrawing drawing = draw_wafer(plan);
   std::vector<std::string> files;

@@ -11,10 +11,16 @@
 namespace papilla::design {
 
 bool is_built(const std::string& path) {
-  constexpr std::array kOthers{"finger", "environment", "model", "accuracy"};
-  const std::string section = path.substr(0, path.find('.'));
-  return std::none_of(kOthers.begin(), kOthers.end(),
-                      [&](const char* other) { return section == other; });
+  // Of the view films and indices are built; the rest is who looks, below what, and how well the
+  // texture was made.
+  constexpr std::array kOthers{"finger",          "environment",
+                               "model",           "accuracy",
+                               "view.angles",     "view.cone",
+                               "view.panel",      "view.displacement",
+                               "view.inner_haze", "view.diameter_scatter"};
+  return std::none_of(kOthers.begin(), kOthers.end(), [&](const std::string& other) {
+    return path == other || path.starts_with(other + ".");
+  });
 }
 
 namespace {

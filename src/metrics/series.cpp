@@ -57,7 +57,8 @@ double Series::error(Summary summary, const std::vector<double>& errors) const {
     case Summary::Variation:
       return std::hypot(sd_error, sd_ / mean_ * mean_error) / std::abs(mean_);
     case Summary::Range:
-      return std::hypot(errors[high_], errors[low_]) / std::abs(mean_);
+      // A single value is no distance from itself, whatever it is off by.
+      return low_ == high_ ? 0 : std::hypot(errors[high_], errors[low_]) / std::abs(mean_);
     default:
       return errors[index(summary)];
   }

@@ -63,6 +63,11 @@ std::vector<MetricExpression> sloping_metrics(const Design& design) {
 
 }  // namespace
 
+std::string why_unanswered(const Design& design) {
+  const std::vector<DesignProblem> problems = design_problems(design);
+  return problems.empty() ? "" : problems.front().path + ": " + problems.front().message;
+}
+
 const char* name_of(Step step) {
   switch (step) {
     case Step::First:
@@ -101,6 +106,7 @@ Evaluator::Subject Evaluator::subject_of(const Design& design) {
 void Evaluator::wish(const Wish& wish) {
   Question question{0, wish.revision, subject_of(wish.design), {}};
   for (const auto& [number, design] : wish.pinned) {
+    if (!why_unanswered(design).empty()) continue;
     Subject pinned = subject_of(design);
     // One accuracy for all, or they would meet other skins and not be compared by them; what a
     // target chooses of it is that of the design at hand (chosen_accuracy).
@@ -143,7 +149,10 @@ void Evaluator::answer_first() {
     const Question wish = *wanted_;
     lock.unlock();
     try {
-      answer(wish);
+      if (const std::string why = why_unanswered(wish.at_hand.design); !why.empty())
+        listener_.failed(wish.revision, why);
+      else
+        answer(wish);
       const Subject& now = wish.at_hand;
       if (!shaped_ || now.design.texture != shaped_->design.texture || now.maps != shaped_->maps) {
         listener_.shape(wish.revision, now.design);
@@ -231,6 +240,10 @@ void Evaluator::refine_while_idle() {
 
 void Evaluator::refine(const Question& wish) {
   listener_.look(wish.revision, wish.at_hand.design);
+  if (!why_unanswered(wish.at_hand.design).empty()) {
+    if (slopes_wanted_) listener_.slopes(wish.revision, {});  // those of a design before go
+    return listener_.refining(wish.revision, "", 1);
+  }
   for (const Step step : {Step::Draft, Step::Design}) {
     refine_to(wish, wish.at_hand, step, name_of(step));
     for (const auto& [number, subject] : wish.pinned)

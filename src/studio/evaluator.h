@@ -32,6 +32,9 @@ struct Wish {
 enum class Step { First, Draft, Design };
 const char* name_of(Step step);  // "first", "draft", "design"
 
+// Why no simulation settles a design that can be drawn; "": one does.
+std::string why_unanswered(const Design& design);
+
 // A pinned design beside the one at hand: common skins, a paired error.
 struct Comparison {
   int pin = 0;
@@ -71,6 +74,7 @@ struct Listener {
   std::function<void(std::uint64_t revision, const std::string& what, double share)> refining;
   // Those that are known of a design so far, where slopes are wanted.
   std::function<void(std::uint64_t revision, const std::vector<Slope>&)> slopes;
+  // In the place of an answer, as of what no simulation settles; or of what comes after one.
   std::function<void(std::uint64_t revision, const std::string& why)> failed;
 };
 

@@ -19,6 +19,7 @@
 #include "report/json.h"
 #include "report/page_data.h"
 #include "report/surface.h"
+#include "studio/evaluator.h"
 #include "studio/safety.h"
 
 namespace papilla::studio {
@@ -132,7 +133,7 @@ void Files::save(const Draft& draft, const Study& study, const std::string& file
   Design back;
   try {
     folder.write(trial, text);
-    back = read_study(folder.file(trial)).design;
+    back = read_study(folder.file(trial), {}, DesignUse::Drawn).design;
   } catch (...) {
     folder.remove(trial);
     throw;
@@ -186,10 +187,12 @@ Json Files::export_files(const Study& study, const std::string& name, bool overw
   ExportVerdict verdict;
   verdict.files = verify_files(record, made);
   constexpr double kTolerance = 0.05;
-  verdict.felt = verify_export(record, kTolerance);
+  const std::string unanswered = why_unanswered(study.design);
+  if (unanswered.empty()) verdict.felt = verify_export(record, kTolerance);
   Json out = Json::parse(export_json(study, options, made, name, verdict));
   out["sound"] = verdict.sound();
-  out["words"] = without(verdict_text(verdict), folder.string() + "/");
+  out["words"] = without(verdict_text(verdict), folder.string() + "/") +
+                 (unanswered.empty() ? "" : "how it feels is not simulated: " + unanswered + "\n");
   out["folder"] = name;
   return out;
 }

@@ -78,7 +78,7 @@ Draft with_change(Draft draft, const Change& change) {
 Study study_of(const Draft& draft) {
   std::vector<std::string> settings;
   for (const Change& c : draft.changes) settings.push_back(c.setting());
-  return read_study(draft.file, settings);
+  return read_study(draft.file, settings, DesignUse::Drawn);
 }
 
 std::string title_of(const Draft& draft, const Design& design) {

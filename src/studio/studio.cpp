@@ -32,7 +32,8 @@ std::string opened_file(const std::string& given) {
   if (given.empty()) return find_design("electroadhesive_glass/study.toml");
   const fs::path path = fs::weakly_canonical(own_or_shipped(given));
   if (!fs::is_directory(path)) {
-    read_study(path.string());  // what cannot be opened leaves no folder behind
+    // What cannot be opened leaves no folder behind.
+    read_study(path.string(), {}, DesignUse::Drawn);
     return path.string();
   }
   for (const char* name : {"best/design.toml", "design.toml", "study.toml"}) {
@@ -364,6 +365,8 @@ void Studio::add_design_routes() {
   };
   routes_["POST /maps"] = [this](const Asked& a) {
     const SessionView view = session_.view();
+    if (const std::string why = why_unanswered(view.study.design); !why.empty())
+      throw InputError(why);
     const auto& humidities = view.study.design.environment.relative_humidity;
     const double wanted = a.body.at("humidity").get<double>();
     const auto nearest = std::min_element(

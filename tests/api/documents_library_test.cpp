@@ -448,6 +448,23 @@ TEST(DesignOfTheLibrary, TakesAsMuchOfHeightsAsLeavesRoomForTheirSeam) {
   EXPECT_NEAR(patch(false), 10e-6, 1e-12);
 }
 
+// More droplets than can be settled: no file has one.
+TEST(DesignOfTheLibrary, IsDrawnWhereNoSimulationSettlesIt) {
+  const papilla::Design dry = papilla::Design::parse(kSmall);
+  const papilla::Design design = dry.with("finger.water.drops_per_um3", "100000");
+  papilla::ExportOptions options;
+  options.formats = {"gsf"}, options.pixels = 96;
+  const std::string folder = papilla::tests::temporary("wet");
+  EXPECT_EQ(papilla::export_files(design, folder, options).files.size(), 1u);
+  EXPECT_EQ(design.heights(16).nx, 16);
+  for (const std::string& said : {refusal([&] { papilla::evaluate(design); }),
+                                  refusal([&] { papilla::compare(dry, design); }), refusal([&] {
+                                    papilla::api::rank({design, design});
+                                  }),
+                                  refusal([&] { design.require_simulated(); })})
+    EXPECT_NE(said.find("finger.water.drops_per_um3: 1e+05 makes"), std::string::npos) << said;
+}
+
 constexpr const char* kStudy =
     "schema_version = 1\nbase = \"m3_samples/a3h350.toml\"\n"
     "[design_space]\n\"texture.depth\" = [\"100 nm\", \"500 nm\"]\n"
@@ -560,6 +577,16 @@ TEST(StudyOfTheLibrary, JudgesADesignOnEveryGoalAndLimit) {
   ASSERT_EQ(j.violations.size(), 1u);
   EXPECT_NEAR(j.violations[0], std::max(-1.0, 0.1 / j.values[0] - 1), 1e-9);
   EXPECT_EQ(study.judge({350e-9, 2e-6}, 1).values, j.values);
+}
+
+TEST(StudyOfTheLibrary, JudgesWithModelsOfItsFingersUnlessItIsForced) {
+  const papilla::Study study =
+      papilla::Study::parse(std::string(kStudy) + "[model]\nrim_pinning = true\n");
+  const std::vector<double> beyond{350e-9, 3e-6};  // refused by its wall: nothing is solved
+  const std::string said = refusal([&] { study.judge(beyond); });
+  EXPECT_NE(said.find("model.rim_pinning is true, the finger"), std::string::npos) << said;
+  EXPECT_NE(said.find("or set `force`"), std::string::npos) << said;
+  EXPECT_EQ(study.judge(beyond, 0, nullptr, true).reason, "min_wall 3 um is below 3.5 um");
 }
 
 // What is minimised is, and the number of judgements is that of the designs.
@@ -676,6 +703,34 @@ TEST(FilesOfTheLibrary, AreWrittenAndJudgedAgain) {
   EXPECT_TRUE(felt.sound());
 }
 
+TEST(FilesOfTheLibrary, AreOfTheSizesThatTheCommandTakes) {
+  const papilla::Design design = papilla::Design::parse(kSmall);
+  const std::string folder = papilla::tests::temporary("of_sizes");
+  const auto said = [&](double size, int pixels) {
+    papilla::ExportOptions options;
+    options.formats = {"gsf"}, options.size = size, options.pixels = pixels;
+    return refusal([&] { papilla::export_files(design, folder, options); });
+  };
+  const std::string size = "size: expected a width of at most 1 m, or 0 for about 12 um";
+  for (const double wrong : {-1e-6, 1.01, HUGE_VAL, std::nan("")}) EXPECT_EQ(said(wrong, 96), size);
+  EXPECT_EQ(said(0, 7), "pixels: expected 8 to 65536, got 7");
+  EXPECT_EQ(said(0, 65537), "pixels: expected 8 to 65536, got 65537");
+  // A tolerance that is no number is kept by every loss.
+  EXPECT_EQ(refusal([&] { papilla::verify(folder, {.tolerance = std::nan("")}); }),
+            "tolerance: expected a share from 0 to 1, got nan");
+}
+
+// What a warning says is in arguments: `pixels 18 would do`.
+TEST(FilesOfTheLibrary, AreWarnedOfInArguments) {
+  papilla::ExportOptions options;
+  options.formats = {"gsf"}, options.pixels = 8, options.size = 60e-6;
+  const papilla::Exported coarse = papilla::export_files(
+      papilla::Design::parse(kSmall), papilla::tests::temporary("coarse"), options);
+  ASSERT_FALSE(coarse.warnings.empty());
+  for (const std::string& warning : coarse.warnings)
+    EXPECT_EQ(warning.find(" --"), std::string::npos) << warning;
+}
+
 // The heights of a design from an array lie in a file that goes with the design.
 TEST(FilesOfTheLibrary, OfDrawnHeightsAreJudgedWithoutTheDesign) {
   const std::string made = papilla::tests::temporary("drawn_made"),
@@ -755,6 +810,17 @@ TEST(RankingOfTheLibrary, RefusesWhatFitsNoDesigns) {
             "max_skins: expected 6, the first step of every design, to 100000, got 0");
   options.max_skins = 6, options.threads = -1;
   EXPECT_EQ(said(options), "threads: expected 0, all processors, to 4096, got -1");
+}
+
+TEST(RankingOfTheLibrary, IsOfModelsOfItsFingersUnlessItIsForced) {
+  const papilla::Design flat = papilla::Design::parse(
+      "schema_version = 1\nbase = \"m3_samples/flat.toml\"\n[model]\nrim_pinning = true\n");
+  const papilla::Design dry = flat.with("environment.relative_humidity", "[\"30 %\"]");
+  papilla::RankOptions options;
+  const auto said = [&] { return refusal([&] { papilla::api::rank({flat, dry}, options); }); };
+  EXPECT_NE(said().find("model.rim_pinning is true, the finger"), std::string::npos) << said();
+  options.force = true;  // and is refused for what comes after that
+  EXPECT_NE(said().find("not judged under the same conditions"), std::string::npos) << said();
 }
 
 // Two designs of one title would stand in messages and tables as one.

@@ -16,6 +16,9 @@ namespace {
 const std::string kSample = PAPILLA_SOURCE_DIR "/designs/m3_samples/a3h600.toml";
 const std::string kRough = PAPILLA_SOURCE_DIR "/designs/m3_samples/screen_rough.toml";
 const std::string kDraft = " --set accuracy.level=draft ";
+// Where no number of the answer matters.
+const std::string kGrid = "--set accuracy.grid=32 ";
+const std::string kQuick = kDraft + kGrid + "--set 'environment.relative_humidity=[\"50 %\"]' ";
 
 TEST(Program, HelpAndVersionSucceed) {
   const Workplace place;
@@ -335,15 +338,13 @@ TEST(Explain, NamesWhatItSkipsAndWhy) {
 
 TEST(Evaluate, BeyondBreakdownItsNumbersMeanNothing) {
   const Workplace place;
-  const std::string line = "evaluate " + kSample + kDraft +
-                           "--set 'environment.relative_humidity=[\"50 %\"]' "
-                           "--set drive.amplitude=99kV ";
+  const std::string line = "evaluate " + kSample + kQuick + "--set drive.amplitude=99kV ";
   const Outcome text = place.run(line), json = place.run(line + "--json");
   EXPECT_NE(text.out.find("mean nothing physical"), std::string::npos) << text.out;
   EXPECT_EQ(text.out.find("from the refined 3-D field"), std::string::npos) << text.out;
   const auto status = nlohmann::json::parse(json.out)["points"][0]["status"].get<std::string>();
   EXPECT_NE(status.find("nothing physical"), std::string::npos) << status;
-  const Outcome sound = place.run("evaluate " + kSample + kDraft + "--voltage-for 0.3");
+  const Outcome sound = place.run("evaluate " + kSample + kQuick + "--voltage-for 0.3");
   EXPECT_NE(sound.out.find("V (±: sampling, solver, field; not in ±: grid"), std::string::npos)
       << sound.out;
 }
@@ -426,7 +427,7 @@ file = "d350/heightmap.gsf"
 
 TEST(Evaluate, GivesTheDocumentedJson) {
   const Workplace place;
-  const Outcome run = place.run("evaluate --json " + kSample + kDraft);
+  const Outcome run = place.run("evaluate --json " + kSample + kDraft + kGrid);
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json["schema"], 1);
@@ -454,7 +455,7 @@ TEST(Evaluate, GivesTheDocumentedJson) {
 
 TEST(Evaluate, AnUndrivenDesignHasNoModulationAndSaysSo) {
   const Workplace place;
-  const std::string arguments = kSample + kDraft + "--set drive.amplitude=0V";
+  const std::string arguments = kSample + kQuick + "--set drive.amplitude=0V";
   EXPECT_NE(place.run("evaluate " + arguments).out.find("undriven"), std::string::npos);
   const auto json = nlohmann::json::parse(place.run("evaluate --json " + arguments).out);
   EXPECT_TRUE(json["points"][0]["modulation"].is_null());
@@ -480,7 +481,8 @@ TEST(Evaluate, AnswersTheFieldCheckWithItsNumbers) {
 
 TEST(Evaluate, TheResolvedFileGivesTheSameBytesOnTwoThreadsAsTheDesignOnOne) {
   const Workplace place;
-  ASSERT_EQ(place.run("evaluate -q " + kSample + kDraft + "--jobs 1 --out first").status, 0);
+  ASSERT_EQ(place.run("evaluate -q " + kSample + kDraft + kGrid + "--jobs 1 --out first").status,
+            0);
   ASSERT_EQ(place.run("evaluate -q first/resolved.toml --jobs 2 --out second").status, 0);
   EXPECT_EQ(file_text(place.path() / "first/response.json"),
             file_text(place.path() / "second/response.json"));
@@ -490,11 +492,13 @@ TEST(Evaluate, TheResolvedFileGivesTheSameBytesOnTwoThreadsAsTheDesignOnOne) {
 TEST(Evaluate, SweepsANumber) {
   const Workplace place;
   const Outcome run =
-      place.run("evaluate --json -q " + kSample + kDraft + "--sweep drive.amplitude=50..200:2");
+      place.run("evaluate --json -q " + kSample + kQuick + "--sweep drive.amplitude=50..200:2");
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   ASSERT_EQ(json["runs"].size(), 2u);
   EXPECT_EQ(json["runs"][1]["value"], 200);
+  // As of a single evaluation: a bridge puts the whole voltage on the film.
+  EXPECT_TRUE(json["runs"][1]["response"]["points"][0]["bridged_margin"].is_number());
   // The pull grows with the square of the voltage, so does the modulation at least.
   EXPECT_GT(json["runs"][1]["response"]["summary"]["mean_modulation"]["value"].get<double>(),
             8 * json["runs"][0]["response"]["summary"]["mean_modulation"]["value"].get<double>());
@@ -502,11 +506,11 @@ TEST(Evaluate, SweepsANumber) {
 
 TEST(Evaluate, ASweepHasRoundValuesAndIsCheckedBeforeItStarts) {
   const Workplace place;
-  const std::string one = kDraft + "--set 'environment.relative_humidity=[\"50 %\"]' ";
-  const Outcome depths = place.run("evaluate " + kSample + one + "--sweep texture.depth=0..1000:3");
+  const Outcome depths =
+      place.run("evaluate " + kSample + kQuick + "--sweep texture.depth=0..1000:3");
   EXPECT_EQ(depths.status, 0) << depths.err;
   EXPECT_EQ(depths.err.find("moves nothing"), std::string::npos) << depths.err;
-  const Outcome deaf = place.run("evaluate " + kSample + one +
+  const Outcome deaf = place.run("evaluate " + kSample + kQuick +
                                  "--set 'surface.shear_strength=2 MPa' --sweep "
                                  "'finger.macro.shear_strength=5 MPa..13 MPa:2'");
   EXPECT_NE(deaf.err.find("warning: finger.macro.shear_strength moves nothing here"),
@@ -514,7 +518,8 @@ TEST(Evaluate, ASweepHasRoundValuesAndIsCheckedBeforeItStarts) {
       << deaf.err;
   EXPECT_NE(depths.out.find("  500 nm "), std::string::npos) << depths.out;
   EXPECT_NE(depths.out.find("  1000 nm "), std::string::npos) << depths.out;
-  const Outcome wide = place.run("evaluate " + kSample + one + "--sweep texture.diameter=1..8:3");
+  const Outcome wide =
+      place.run("evaluate " + kSample + kQuick + "--sweep texture.diameter=1..8:3");
   EXPECT_EQ(wide.status, 2);
   EXPECT_EQ(wide.out, "");
   EXPECT_NE(wide.err.find("at 8 um"), std::string::npos) << wide.err;
@@ -609,6 +614,20 @@ TEST(Export, WarnsOfARunThatKeepsItsLimitsNowhere) {
             std::string::npos);
 }
 
+TEST(Wafer, WarnsOfModelsThatTheFingerWasNotFittedWith) {
+  const Workplace place;
+  place.write("d.toml",
+              "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n[model]\nrim_pinning = true\n"
+              "[environment]\nrelative_humidity = [\"30 %\"]\n");
+  const std::string warning =
+      "warning: what is expected is off by tens of percent: model.rim_pinning is true";
+  const Outcome run = place.run("wafer d.toml --no-model --out wafer");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find(warning), std::string::npos) << run.out;
+  EXPECT_EQ(place.run("wafer d.toml --no-expected --out drawn").out.find(warning),
+            std::string::npos);
+}
+
 // Only where the run was there is the best design rounded.
 TEST(Export, SaysWhetherTheBuildSheetIsOnTheGridOfTheFab) {
   const Workplace place;
@@ -650,6 +669,9 @@ TEST(Export, DrawsWhatCannotBeSimulated) {
     EXPECT_EQ(refused.status, 2) << felt;
     EXPECT_NE(refused.err.find("finger.water.drops_per_um3"), std::string::npos) << refused.err;
   }
+  const Outcome looked =
+      place.run("solve haze " + kSample + " --set finger.water.drops_per_um3=100000");
+  EXPECT_EQ(looked.status, 0) << looked.err;
 }
 
 TEST(Export, WritesTheFilesThatItNames) {
@@ -870,6 +892,9 @@ TEST(Program, MistakesOnTheCommandLineNameThemselves) {
            {"optimize " PAPILLA_TEST_DATA "/study/tiny.toml --finish", "add --resume"},
            {"optimize " PAPILLA_TEST_DATA "/study/tiny.toml --set model.rim_pinning=true",
             "fit the finger again, or run with --force"},
+           {"rank " + kSample +
+                " " PAPILLA_SOURCE_DIR "/designs/m3_samples/flat.toml --set model.rim_pinning=true",
+            "fit the finger again, or run with --force"},
            {"optimize " PAPILLA_TEST_DATA "/study/tiny.toml --set objective.risk='mean - -2 std'",
             "seeks risk"},
            {"evaluate " + kSample + " --set texture.type=stack", "at least one part"},
@@ -927,6 +952,8 @@ TEST(Program, RefusesOptionsThatItWouldNotObey) {
            {"solve contact c.toml --size 4um", "--size is of --height"},
            {"solve haze d.toml --size 4um", "--size is of --height"},
            {"solve haze d.toml --level", "--level is of --height"},
+           {"solve haze d.toml --index nan", "--index: expected a number, got nan"},
+           {"solve contact --bulk-poisson nan", "--bulk-poisson: expected a number, got nan"},
            {"solve haze --height g.npy --set a=1", "--set is of a design FILE"},
            {"solve field --gap g.npy --voltage 1V --process planar", "--process is of --texture"},
            {"solve field --gap g.npy --voltage 1V --edge-radius 5nm",

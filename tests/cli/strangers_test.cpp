@@ -79,8 +79,8 @@ TEST_F(Strangers, LinksInARunsFolderAreReplacedOrRefused) {
   }
   link("response.json");
   link("resolved.toml");
-  const Outcome evaluated =
-      place_.run("evaluate " + kHoles + " --set accuracy.level=draft --out folder");
+  const Outcome evaluated = place_.run(
+      "evaluate " + kHoles + " --set accuracy.level=draft --set accuracy.grid=32 --out folder");
   EXPECT_EQ(evaluated.status, 0) << evaluated.err;
   EXPECT_TRUE(is_file("response.json"));
   expect_untouched();

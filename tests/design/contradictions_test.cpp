@@ -390,7 +390,10 @@ TEST(StudySections, OfVariablesAreNumbersOfWhatIsBuilt) {
   for (const auto& [path, ends] : {std::pair("finger.skin.rms", "[\"50 nm\", \"150 nm\"]"),
                                    {"environment.relative_humidity.0", "[\"20 %\", \"60 %\"]"},
                                    {"model.droplet_step", "[\"50 nm\", \"800 nm\"]"},
-                                   {"accuracy.target", "[\"1 %\", \"5 %\"]"}}) {
+                                   {"accuracy.target", "[\"1 %\", \"5 %\"]"},
+                                   {"view.cone", "[\"1 deg\", \"5 deg\"]"},
+                                   {"view.panel.distance", "[\"300 mm\", \"500 mm\"]"},
+                                   {"view.displacement", "[\"1 nm\", \"5 nm\"]"}}) {
     const std::string said = variable(path, ends);
     EXPECT_TRUE(
         said.starts_with(std::string("5:1 design_space.") + path + ": is nothing that is built"))
@@ -398,6 +401,7 @@ TEST(StudySections, OfVariablesAreNumbersOfWhatIsBuilt) {
     EXPECT_NE(said.find("[[scenarios]]"), std::string::npos) << said;
   }
   EXPECT_EQ(variable("surface.contact_angle", "[\"20 deg\", \"60 deg\"]"), "");
+  EXPECT_EQ(variable("view.fill_index", "[1.1, 1.4]"), "");
 }
 
 // The kinds that numbers alone make, by their place in the list; parts of a stack from 1 on.

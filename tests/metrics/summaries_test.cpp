@@ -122,6 +122,19 @@ TEST(Summaries, TheFieldMovesASpreadAsAWholeAndThreeTenthsApart) {
   EXPECT_NEAR(of(Summary::Worst, r).parts.field.value(), 0.1, 1e-12);
 }
 
+// A single value is no distance from itself, whatever it is off by.
+TEST(Summaries, ASpreadOfOneHumidityHasNoError) {
+  Response r = response_of({0.5});
+  r.points[0].modulation.parts.sampling = 0.1;
+  r.points[0].modulation.parts.grid = 0.2;
+  r.points[0].modulation.parts.solver = 0.3;
+  r.points[0].modulation.parts.field = 0.4;
+  for (const Summary summary : {Summary::Range, Summary::Std, Summary::Variation}) {
+    EXPECT_EQ(of(summary, r).value, 0);
+    EXPECT_EQ(of(summary, r).se, 0);
+  }
+}
+
 // Eq. accuracy.4 at uneven humidities: the second and fourth from their neighbours, then the third;
 // the larger change of the summary over three.
 TEST(Summaries, TheHumidityPartIsWhatLeavingEverySecondOutDoes) {

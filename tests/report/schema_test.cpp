@@ -141,14 +141,15 @@ TEST(JsonSchema, ATextureHasTheKeysOfItsKindAlone) {
 TEST(JsonSchema, PathsAreThoseOfNumbersAndTheirBeginnings) {
   const Json& space = schema()["properties"]["design_space"];
   EXPECT_EQ(space["type"], "object");
-  expect_pattern(space["propertyNames"],
-                 {"texture.depth", "texture.type", "texture.levels", "texture.parts.0.depth",
-                  "texture.parts.12.no_such", "surface.dielectric.0.thickness",
-                  "surface.dielectric.15.permittivity", "surface.contact_angle", "texture",
-                  "surface", "view", "counterface", "drive"},
-                 {"finger.load", "finger", "environment", "model.droplet_step", "model", "accuracy",
-                  "texture.depht", "texturexdepth", "depth", "texture.depth.x", "atexture.depth",
-                  "surface.dielectric.x.thickness", "search", "texture.parts.depth", ""});
+  expect_pattern(
+      space["propertyNames"],
+      {"texture.depth", "texture.type", "texture.levels", "texture.parts.0.depth",
+       "texture.parts.12.no_such", "surface.dielectric.0.thickness",
+       "surface.dielectric.15.permittivity", "surface.contact_angle", "texture", "surface", "view",
+       "view.fill_index", "counterface", "drive"},
+      {"view.cone", "view.panel.gap", "finger.load", "finger", "environment", "model.droplet_step",
+       "model", "accuracy", "texture.depht", "texturexdepth", "depth", "texture.depth.x",
+       "atexture.depth", "surface.dielectric.x.thickness", "search", "texture.parts.depth", ""});
   const Json value{{"type", {"string", "number"}}};
   const Json interval{{"type", "array"}, {"items", value}, {"minItems", 2}, {"maxItems", 2}};
   const Json choice{{"type", "object"},

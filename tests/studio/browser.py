@@ -309,13 +309,19 @@ def modules(browser, folder):
     try:
         go(browser, studio)
         until(browser, "document.documentElement.dataset.shape && document.documentElement.dataset.ready", 30, "the page")
-        browser.run("Promise.all(['plots/maps.js', 'plots/curves.js', 'plots/solid.js', 'page/answer.js', 'page/scene.js', 'page/search.js', 'page/lab.js', 'page/files.js'].map((file) => import(new URL(file, location.href)))).then((all) => { window.parts = Object.assign({}, ...all); })")
+        browser.run("Promise.all(['plots/maps.js', 'plots/curves.js', 'plots/solid.js', 'page/answer.js', 'page/form.js', 'page/scene.js', 'page/search.js', 'page/lab.js', 'page/files.js'].map((file) => import(new URL(file, location.href)))).then((all) => { window.parts = Object.assign({}, ...all); })")
         until(browser, "window.parts", 10, "the modules of the page")
         # The margin that limits, beside that of the solved field.
         margins = browser.run("return [[3.2, 2.5], [1.18, 0.909], [0.9, 0.95], [2, null], [null, null]].map(([oxide_margin, bridged_margin]) => parts.breakdownMargin([{oxide_margin, bridged_margin}]))")
         check(margins == ["2.5; by the solved field 3.2", "0.909: the film is at risk; by the solved field 1.18", "0.9: the film breaks down", "2", None], f"breakdown margins: {margins}")
         same = browser.run("return parts.breakdownMargin([{oxide_margin: 72.0001, bridged_margin: 72}])")
         check(same == "72", f"two margins that read the same: {same}")
+        # Where a design has no answer, what stands there is of one before it, and says so.
+        none = browser.run("parts.showUnanswered('7e5 droplets'); const a = document.getElementById('answer'), said = [a.classList.contains('stale'), document.getElementById('level').textContent, document.querySelector('#caveats .over').textContent]; a.classList.remove('stale'); return said")
+        check(none == [True, "no answer", "warning: this design has no answer, what stands here is of one before it: 7e5 droplets"], f"no answer: {none}")
+        # Of a title only what the program says of changed keys is written as people write it.
+        title = browser.run("return parts.titled('Plate 3.14159265 of 2.50000 um; texture.depth 345.6789 nm; texture.period 6.5 um')")
+        check(title == "Plate 3.14159265 of 2.50000 um; texture.depth 345.68 nm; texture.period 6.5 µm", f"a title: {title}")
         # What evaluate says of the numbers stands below them, and warnings are seen.
         said = browser.run("parts.showCaveats(['air beyond its breakdown field on up to 30 %', 'warning: the smallest feature is 0.3 pixels wide']); return [...document.querySelectorAll('#caveats li')].map(li => [li.textContent, li.className]).concat([document.getElementById('caveats').hidden])")
         check(said == [["air beyond its breakdown field on up to 30 %", ""], ["warning: the smallest feature is 0.3 pixels wide", "over"], False], f"caveats: {said}")

@@ -11,6 +11,7 @@
 #include <functional>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "config/describe.h"
@@ -53,6 +54,12 @@ class Told {
                                [&] { return until() || !failures.empty(); }));
   }
 
+  // Also after a failure.
+  bool holds(const std::function<bool()>& what) {
+    const std::lock_guard lock(mutex_);
+    return what();
+  }
+
   std::vector<Answer> answers;
   std::vector<std::uint64_t> shapes, looks;
   std::vector<std::string> refined, failures;
@@ -75,6 +82,29 @@ Design quick_design() {
   for (double& volume : out.finger.water.volume) volume = 0;  // dry: quicker
   out.accuracy.seed = 3;
   return out;
+}
+
+// It is drawn and looked at; no droplet of it is settled.
+TEST(Evaluator, TellsWhyADesignHasNoAnswer) {
+  Design wet = quick_design();
+  wet.finger.water = read_design(PAPILLA_DESIGNS_DIR "/m3_samples/a3h600.toml").finger.water;
+  wet.finger.water.drops_per_um3 = 1e5;
+  wet.environment.relative_humidity = {0.75};
+  Told told;
+  {
+    Evaluator evaluator(told.listener());
+    evaluator.wish({1, wet, {}});
+    const auto is_told = [&] { return !told.shapes.empty() && !told.refined.empty(); };
+    for (int i = 0; i < 600 && !told.holds(is_told); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  EXPECT_TRUE(told.answers.empty());
+  EXPECT_EQ(told.shapes, (std::vector<std::uint64_t>{1}));
+  EXPECT_EQ(told.looks, (std::vector<std::uint64_t>{1}));
+  EXPECT_EQ(told.refined, (std::vector<std::string>{"done"}));
+  ASSERT_EQ(told.failures.size(), 1u);
+  EXPECT_TRUE(told.failures[0].starts_with("finger.water.drops_per_um3: 1e+05 makes"))
+      << told.failures[0];
 }
 
 // Two drafts a number, where they are asked for.

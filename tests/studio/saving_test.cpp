@@ -348,6 +348,20 @@ TEST_F(Saving, AnExportIsShownBeforeItIsMade) {
   EXPECT_TRUE(mask);
 }
 
+// No file has a droplet: what has too many is saved and exported, and what is left out is said.
+TEST_F(Saving, ADesignThatNoSimulationSettlesIsSavedAndExported) {
+  const Draft wet{shipped_, {{"finger.water.drops_per_um3", "100000"}, {"texture.type", "flat"}}};
+  const std::string name = files_.target("wet.toml", false);
+  files_.save(wet, study_of(wet), name);
+  EXPECT_NE(read_bytes(name).find("100000"), std::string::npos);
+  const auto made = files_.export_files(study_of(wet), "export/wet", false);
+  EXPECT_TRUE(made["sound"].get<bool>());
+  EXPECT_NE(made["words"].get<std::string>().find("how it feels is not simulated: "
+                                                  "finger.water.drops_per_um3"),
+            std::string::npos)
+      << made["words"];
+}
+
 TEST_F(Saving, AnExportTakesNoFolderThatHoldsSomethingOrIsOfASearch) {
   const Study study = read_study(shipped_);
   fs::create_directories(place_.path() / "mine/made");

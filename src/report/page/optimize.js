@@ -176,7 +176,7 @@ function showBudget() {
   })).filter((set) => set.data.some((v) => v > 0));
   draw('budget', {
     type: 'bar',
-    data: { labels: points.map((p) => Math.round(100 * p.relative_humidity) + ' %'), datasets: sets },
+    data: { labels: points.map((p) => round(100 * p.relative_humidity) + ' %'), datasets: sets },
     options: {
       scales: { x: axis('relative humidity, finger ' + task.name, { stacked: true }), y: axis('standard error of the modulation', { stacked: true }) },
       plugins: { tooltip: { callbacks: { label: (item) => `${item.dataset.label}: alone ± ${round(item.dataset.part[item.dataIndex], 2)}` } } },
@@ -321,7 +321,7 @@ if (run.compared) {
 $('receipts').hidden = !run.receipts;
 options($('design'), Object.keys(data.designs).map((n) => [n, n !== 'best' ? label(n) : twin !== n ? `${label(n)} (${label(twin)})` : run.design === null ? 'flat, as recommended' : label(n)]), select);
 options($('finger'), (sameAir ? [['mean', 'mean over fingers']] : []).concat(best.tasks.map((t, i) => [i, t.name])), (value) => { state.finger = value; showHumidity(); showBudget(); });
-options($('rh'), data.fields.map((f, i) => [i, Math.round(100 * f.relative_humidity) + ' %']), showMaps);
+options($('rh'), data.fields.map((f, i) => [i, round(100 * f.relative_humidity) + ' %']), showMaps);
 startSolid();
 select('best');
 showSteps();

@@ -6,7 +6,7 @@ import { fixed, level, round } from '../plots/numbers.js';
 import { refreshTable, table } from '../plots/tables.js';
 import { ask } from './server.js';
 
-const state = { session: null, answer: null };
+const state = { session: null, answer: null, unanswered: '' };
 // Eight pins, eight lines: four colours, each once dashed and once dotted.
 const tint = (i) => colours[2 + i % 4];
 const dash = (i) => i < 4 ? [6, 4] : [2, 3];
@@ -21,6 +21,7 @@ function show(id, config) {
 
 export function showAnswer(answer) {
   state.answer = answer;
+  state.unanswered = '';
   const r = answer.response, sets = r.points.some((p) => p.modulation) ? curve('this design', r.points, colours[0]) : [];
   pins().forEach((pin, i) => {
     const pinned = answer.pinned[pin.number];
@@ -32,6 +33,7 @@ export function showAnswer(answer) {
   show('friction', overHumidity([...mn('F_off', 'drive off', colours[5]), ...mn('F_on', 'drive on', colours[1])], 'friction [mN]', { min: 0 }));
   $('level').textContent = `${levelOf(answer)} · ${answer.seconds < 10 ? Math.round(1000 * answer.seconds) + ' ms' : round(answer.seconds) + ' s'}`;
   $('level').title = { first: 'Refined while nothing moves; the band says what that may change.', design: 'At the accuracy that the design states (Accuracy, below All keys): the numbers of papilla evaluate.' }[answer.step] || '';
+  $('answer').classList.remove('stale');
   showNumbers(r);
   showCaveats(answer.caveats);
   showValues(r.points);
@@ -39,6 +41,22 @@ export function showAnswer(answer) {
   showModel(r.plan);
   document.documentElement.dataset.step = answer.step;
   document.documentElement.dataset.revision = answer.revision;
+}
+
+// No answer to the design at hand: what stands here is of one before it, if there was one.
+export function showUnanswered(why) {
+  state.unanswered = why;
+  $('answer').classList.add('stale');
+  $('level').textContent = 'no answer';
+  $('level').title = '';
+  showCaveats([`warning: this design has no answer${state.answer ? ', what stands here is of one before it' : ''}: ${why}`]);
+}
+
+// In other colours.
+export function showAnswerAgain() {
+  const why = state.unanswered;
+  if (state.answer) showAnswer(state.answer);
+  if (why) showUnanswered(why);
 }
 
 function levelOf({ step, response }) {
@@ -72,7 +90,7 @@ function showNumbers(r) {
   if (r.belief) rows.push(['model part of ±', r.belief.members.length ? `${r.belief.members.length} members of belief, as good as ${round(r.belief.effective_members, 3)} equal ones` : `not stated: ${r.belief.status}`]);
   const margin = breakdownMargin(r.points);
   if (margin) rows.push(['breakdown margin', margin]);
-  r.points.filter((p) => p.status !== 'ok').forEach((p) => rows.push([`at ${Math.round(100 * p.relative_humidity)} %`, p.status]));
+  r.points.filter((p) => p.status !== 'ok').forEach((p) => rows.push([`at ${round(100 * p.relative_humidity, 3)} %`, p.status]));
   refreshTable($('numbers'), null, rows, [1]);
 }
 

@@ -10,6 +10,10 @@ const sections = { texture: 'Texture', surface: 'Surface', drive: 'Drive', finge
 export const called = (path) => path.split('.').slice(1).map((p) => /^\d+$/.test(p) ? String(+p + 1) : p.replace(/_/g, ' ')).join(' ');
 // As people write it: their letters, and no more than five digits of what a search found.
 export const people = (text) => text.replace(/\d+\.\d{3,}/g, (n) => round(+n, 5)).replace(/(-?\d[\d.e+-]*) rad\b/g, (all, n) => `${round(180 / Math.PI * n, 5)} deg`).replace(/\bum\b/g, 'µm').replace(/\bdeg\b/g, '°').replace(/um(\d)/g, 'µm$1');
+// A title with what the program says in it of changed keys as people write it; what its author wrote stays.
+export const titled = (title) => title.split('; ').map((part, i) => (i && /^[a-z]+(\.\w+)+ /.test(part) ? people(part) : part)).join('; ');
+// Names and words are nobody's numbers.
+const verbatim = (k) => ['choice', 'flag', 'text', 'path'].includes(k.type), valueOf = (k) => verbatim(k) ? k.value : people(k.value);
 const plain = (text) => text.replace(/µm|μm/g, 'um').replace(/°/g, 'deg').trim();
 // A comma between digits of a single number is a decimal one; in a list it parts two. "1,200" may be of thousands: the server asks.
 export const machine = (text) => plain(text).replace(/^(?!-?[1-9]\d{0,2},\d{3}(?!\d))(-?\d+),(\d+)(?=\s*[a-zA-Z%]*$)/, '$1.$2');
@@ -110,8 +114,8 @@ function input(k, row) {
   text.autocomplete = 'off';
   text.spellcheck = false;
   text.readOnly = k.type === 'path';
-  text.addEventListener('change', () => { ++gesture; send(k.path, (k.type === 'numbers' ? plain : machine)(text.value), performance.now()); });
-  text.addEventListener('keydown', (e) => { if (e.key === 'Escape') { text.value = people(row.key.value); text.blur(); } });
+  text.addEventListener('change', () => { ++gesture; send(k.path, verbatim(k) ? text.value : (k.type === 'numbers' ? plain : machine)(text.value), performance.now()); });
+  text.addEventListener('keydown', (e) => { if (e.key === 'Escape') { text.value = valueOf(row.key); text.blur(); } });
   return text;
 }
 function slider(k, row) {
@@ -171,7 +175,7 @@ function tell(row, k) {
   }
 }
 function update(k) {
-  const row = rows[k.path], shown = k.type === 'choice' || k.type === 'flag' ? k.value : people(k.value);
+  const row = rows[k.path], shown = valueOf(k);
   const told = row.drawn && row.key.form === k.form && row.key.place === k.place && row.key.changed === k.changed;
   const kept = told && row.key.value === k.value && row.key.shown === k.shown && !row.touched && row.field.value === shown;
   row.key = k;

@@ -1,8 +1,8 @@
 // The studio: what the server tells goes to the parts of the page, what the hand does goes back.
 import { $, onLook, setText } from '../plots/look.js';
 import { charts, dropCharts } from '../plots/charts.js';
-import { answered, drawn, latency, people, showForm, showKinds, showSlopes, startFilter, startSlopes } from './form.js';
-import { showAnswer, showSessionPins } from './answer.js';
+import { answered, drawn, latency, showForm, showKinds, showSlopes, startFilter, startSlopes, titled } from './form.js';
+import { showAnswer, showAnswerAgain, showSessionPins, showUnanswered } from './answer.js';
 import { exportDialog, historyDialog, openDialog, saveDialog, saving, startFiles, state } from './files.js';
 import { showDimensions, showLook, showShape, startScene } from './scene.js';
 import { showLab, startLab } from './lab.js';
@@ -23,7 +23,7 @@ function showSession(news) {
   if (news.form !== told.form) return;  // one of the form at hand follows
   const moved = new Map(news.keys.map((k) => [k.path, k])), now = { ...news, keys: told.keys.map((k) => ({ ...k, ...moved.get(k.path), form: told.form })) };
   session = now;
-  const title = people(now.title);
+  const title = titled(now.title);
   setText($('title'), title || 'Papilla studio');
   setText($('file'), now.file + (now.changes.length ? ` · ${now.changes.length} changed` : ''));
   document.title = `${title || now.file} · Papilla studio`;
@@ -38,7 +38,18 @@ function showSession(news) {
   [file, kind] = [now.file, now.kind];
 }
 
+// The newest design that has no answer: those of designs before it come too late. What fails after its answer leaves that.
+let unanswered = 0;
+function showFailure(told) {
+  if (session && told.revision < session.revision) return;  // not of the design at hand
+  notice(told.error);
+  if (document.documentElement.dataset.revision === String(told.revision)) return;
+  unanswered = told.revision;
+  showUnanswered(told.error);
+}
+
 function showResponse(answer) {
+  if (answer.revision < unanswered) return;
   if (session && answer.revision < session.revision && answer.step !== 'first') return;
   answered(answer.revision);
   showAnswer(answer);
@@ -53,7 +64,7 @@ function toolbar() {
   $('open').addEventListener('click', openDialog);
   $('save').addEventListener('click', () => saveDialog(session));
   $('export').addEventListener('click', () => exportDialog(session));
-  $('keep').addEventListener('click', () => keepPage(people(session.title) || session.file));
+  $('keep').addEventListener('click', () => keepPage(titled(session.title) || session.file));
   document.addEventListener('keydown', (e) => {
     const typing = ['INPUT', 'SELECT', 'TEXTAREA'].includes(e.target.tagName) && e.target.type !== 'range' && e.target.type !== 'checkbox';
     if ($('dialog').open) return;
@@ -95,18 +106,18 @@ async function begin() {
   showLab(all.lab);
   // What has charts is kept, to be drawn again in other colours.
   const last = {}, kept = (topic, show) => (what) => { last[topic] = () => show(what); show(what); };
-  onLook(() => { dropCharts(); Object.values(last).forEach((again) => again()); });
+  onLook(() => { dropCharts(); Object.values(last).forEach((again) => again()); showAnswerAgain(); });
   listen({
     form: showRows,
     session: kept('session', showSession),
     shape: kept('shape', showShape),
-    response: kept('response', showResponse),
+    response: showResponse,
     look: showLook,
     refinement,
     slopes: showSlopes,
     search: kept('search', showSearch),
     lab: kept('lab', showLab),
-    notice: (n) => { if (!session || !(n.revision < session.revision)) notice(n.error); },  // of the design at hand
+    notice: showFailure,
   }, (on) => {
     document.documentElement.dataset.connected = on;
     if (!on) $('status').textContent = 'the studio does not answer; trying again …';
