@@ -34,8 +34,9 @@ struct Steps {
 };
 constexpr Steps kOfRecords{5e-3, 0.01, 1};
 
+// As it would be written: 0.35, not 35 times 0.01.
 double rounded(double value, double step) {
-  return step > 0 ? step * std::round(value / step) : value;
+  return step > 0 ? std::round(value / step) / (1 / step) : value;
 }
 
 double rounded_load(double load, double step) {

@@ -204,7 +204,8 @@ class TableReader {
       problem(column.kind->name, fmt::format("expected a number, got \"{}\"", cell), place);
       return std::nullopt;
     }
-    const double si = *value * column.to_si;
+    // Tenths and hundredths are divided by whole numbers: 35 % is the number 0.35 of a plan.
+    const double si = column.to_si < 1 ? *value / (1 / column.to_si) : *value * column.to_si;
     if (!(si >= low && si <= high)) {
       problem(column.kind->name,
               fmt::format("{} lies outside {:.12g} to {:.12g} {}", cell, low / column.to_si,

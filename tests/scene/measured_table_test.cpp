@@ -51,6 +51,7 @@ TEST(MeasuredTable, ReadsTheColumnsOfCalibrateAndOtherUnits) {
   EXPECT_DOUBLE_EQ(*m.rows[0].voltage, 200);
   EXPECT_DOUBLE_EQ(*m.rows[0].frequency, 5000);
   EXPECT_DOUBLE_EQ(*m.rows[0].off, 0.081);
+  EXPECT_EQ(*m.rows[0].relative_humidity, 0.35);  // to the last bit: not 35 times 0.01
   ASSERT_EQ(m.notes.size(), 1u);
   EXPECT_EQ(m.notes[0], "columns that are not read: photo");
 }
