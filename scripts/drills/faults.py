@@ -22,9 +22,10 @@ def turns(total, most):
     return sorted({1 + round(k * (total - 1) / (most - 1)) for k in range(most)})
 
 
-def page_of(place, differing):
-    """The text of a page that is not the undisturbed one."""
-    return "".join((place / name).read_text(errors="replace") for name in differing if name.endswith("report.html") and (place / name).exists())
+def pages_that_lack(place, differing):
+    """Of the reports that are not the undisturbed ones those that say so themselves."""
+    pages = [name for name in differing if name.endswith("report.html") and (place / name).exists()]
+    return [name for name in pages if 'role="alert"' in (place / name).read_text(errors="replace")]
 
 
 def drill(bench, library, kind, seconds):
@@ -51,9 +52,10 @@ def drill(bench, library, kind, seconds):
             place, outcome = bench.run(command, environment={**environment, "PAPILLA_FAULT_AT": str(at)})
             after = running.files_of(place)
             more = ""
-            damaged = [name for name, digest in bench.made.items() if after.get(name, digest) not in (digest, sound.get(name))]
             differing = sorted(name for name in {*after, *sound} if after.get(name) != sound.get(name))
-            lacks_said = "warning:" in outcome.error or 'role="alert"' in page_of(place, differing)
+            lacking = pages_that_lack(place, differing)
+            lacks_said = "warning:" in outcome.error or lacking
+            damaged = [name for name, digest in bench.made.items() if name not in lacking and after.get(name, digest) not in (digest, sound.get(name))]
             if left := running.leftovers(place, outcome):
                 more = f"left {left[0]} behind"
             elif outcome.status == 0 and differing and not lacks_said:
