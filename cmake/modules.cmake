@@ -1,6 +1,6 @@
 # papilla_unity(TARGET FOLDER...): each room is compiled as one file, so that what its files all include is read once (half of the
-# compiler's time, or less); preset dev compiles file by file, for whoever changes one at a time. Files of these rooms have names
-# of their own that others have too, or are compiled with definitions of their own.
+# compiler's time, or less); preset dev compiles file by file, for whoever changes one at a time. Not the rooms below: there
+# several files give different things the same name, or one is compiled with definitions of its own.
 set(PAPILLA_ROOMS_BY_FILE src/base src/numerics geometry/io)
 function(papilla_unity name)
   if(NOT PAPILLA_UNITY)
