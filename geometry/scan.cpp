@@ -10,6 +10,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "geometry/io/files.h"
 #include "geometry/plane.h"
 
@@ -189,8 +190,8 @@ void mend(Heightmap& h, const Sound& sound, double median) {
 }
 
 std::string share_text(std::size_t part, std::size_t whole) {
-  return fmt::format("{} of {} pixels ({:.2g} %)", part, whole,
-                     100 * static_cast<double>(part) / static_cast<double>(whole));
+  const double share = static_cast<double>(part) / static_cast<double>(whole);
+  return fmt::format("{} of {} pixels ({} %)", part, whole, significant(100 * share, 2));
 }
 
 }  // namespace

@@ -82,9 +82,12 @@ std::unique_ptr<ImageIn> open_image(const RegularFile& file, bool any_size) {
   if (!any_size) check_size(file.path(), spec.width, spec.height);
   if (spec.depth != 1 || spec.channels.empty() || spec.channels.size() > 64)
     broken(file, "not a plane image of at most 64 channels");
-  // Deflate packs 1032 to 1 at best: a header that claims much more is not worth its memory.
+  // Deflate packs 1032 to 1 at best: a header that claims much more is not worth its memory. Pixels
+  // of one bit are read as of eight.
   const auto pixel_count = static_cast<double>(spec.width) * spec.height;
-  if (pixel_count > 2000 * static_cast<double>(file.bytes())) broken(file, "the data are cut off");
+  const double most_per_byte = spec.sample == Sample::U8 ? 8 * 1032 : 2000;
+  if (pixel_count > most_per_byte * static_cast<double>(file.bytes()))
+    broken(file, "the data are cut off");
   return in;
 }
 

@@ -32,7 +32,9 @@ struct Quantity {
   std::optional<double> model{};
 };
 
-// One humidity: friction_off, modulation, ... of papilla/quantities.h, and whether to trust them.
+// One humidity: friction_off, modulation, ... of papilla/quantities.h, and whether to trust them. A
+// quantity of a state that does not exist (under a voltage that breaks the dielectric down, beyond
+// full contact or pull-in) is NaN, and `status` says why.
 struct Point : Quantities<Quantity> {
   double relative_humidity = 0;  // share
   bool sound = true;

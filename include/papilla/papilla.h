@@ -17,7 +17,7 @@
 
 namespace papilla::api {
 
-const char* version();  // "0.2.6"
+const char* version();  // "0.2.7"
 
 // For a program's main: freed memory stays with the process instead of going back to the system
 // after every solve, which takes a fifth less time (glibc). The program and the Python module do

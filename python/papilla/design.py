@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import filecmp
 import html
+import io
 import json
 import os
 import re
@@ -214,10 +215,7 @@ class Design:
             beside = _kept_heights(os.path.splitext(name)[0], drawn.z)
             own = next(line for line in text.splitlines() if line.startswith(_MAP))
             text = text.replace(own, f"file = {json.dumps(os.path.basename(beside), ensure_ascii=False)}")
-        partial = name + ".part"
-        with open(partial, "w", encoding="utf-8") as stream:
-            stream.write(text)
-        os.replace(partial, name)
+        v.write_file(name, text.encode())
 
     def heights(self, pixels: int = 512) -> Heights:
         """A patch of whole periods, ``pixels`` along x (8 to 16384).
@@ -351,16 +349,24 @@ def _without_version(values: Mapping[str, Any]) -> Mapping[str, Any]:
 
 def _kept_heights(stem: str, z: FloatArray) -> str:
     """Writes heights beside a design file and returns the name: that of a file with the same, else one nothing has."""
-    partial = stem + ".heights.npy.part"
-    with open(partial, "wb") as stream:  # of a name alone np.save would make another
-        np.save(stream, z)
+    stream = io.BytesIO()
+    np.save(stream, z)
+    data = stream.getbuffer()
     out = stem + ".heights.npy"
     copy = 2
-    while os.path.lexists(out) and not (os.path.isfile(out) and filecmp.cmp(out, partial, shallow=False)):
+    while os.path.lexists(out) and not _holds(out, data):
         out = f"{stem}.heights-{copy}.npy"
         copy += 1
-    os.replace(partial, out)
+    v.write_file(out, data)
     return out
+
+
+def _holds(name: str, data: memoryview) -> bool:
+    """Whether a file holds these bytes."""
+    if not os.path.isfile(name) or os.path.getsize(name) != len(data):
+        return False
+    with open(name, "rb") as file:
+        return file.read() == data
 
 
 _COMMENT = re.compile(r'((?:[^"#]|"(?:[^"\\]|\\.)*")*).*')

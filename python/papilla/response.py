@@ -34,7 +34,8 @@ class Response:
     sound: tuple[bool, ...]
     """Whether each point can be trusted."""
     status: tuple[str, ...]
-    """Of each point, for people: "ok", or what went wrong."""
+    """Of each point, for people: "ok", or what went wrong. Quantities of a state that so does not exist (under a voltage
+    that breaks the dielectric down, beyond full contact or pull-in) are NaN there."""
     driven: bool
     """Whether a voltage is applied."""
     trouble: str

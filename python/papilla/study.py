@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -193,16 +192,17 @@ class Run:
         self.study = study
         self.folder = folder
         told = self._told()
-        self.interrupted: bool = told["interrupted"]
-        self.any_feasible: bool = told["feasible"]
-        """Whether a design keeps every constraint."""
-        self.evaluations: int = told["evaluations"]
-        self.finalists: list[FoundDesign] = [
-            FoundDesign(Point(study, row["values"]), _told_judgement(row["searched"]), _told_judgement(row["confirmed"]),
-                        os.path.join(folder, row["folder"]) if row["folder"] else "",
-                        row["folder"].startswith("front/")) for row in told["finalists"]]
-        """By the first objective, best first."""
-        self._best: int = told["best"]
+        with v.as_written(os.path.join(folder, "run.json")):
+            self.interrupted: bool = told["interrupted"]
+            self.any_feasible: bool = told["feasible"]
+            """Whether a design keeps every constraint."""
+            self.evaluations: int = told["evaluations"]
+            self.finalists: list[FoundDesign] = [
+                FoundDesign(Point(study, row["values"]), _told_judgement(row["searched"]), _told_judgement(row["confirmed"]),
+                            os.path.join(folder, row["folder"]) if row["folder"] else "",
+                            row["folder"].startswith("front/")) for row in told["finalists"]]
+            """By the first objective, best first."""
+            self._best: int = range(len(self.finalists))[told["best"]] if self.finalists else 0
 
     @classmethod
     def open(cls, folder: Path) -> Run:
@@ -211,15 +211,13 @@ class Run:
         Nothing is evaluated nor written. Raises InputError for a folder that is none of a run.
         """
         name = v.path(folder, "folder")
-        if not os.path.isfile(os.path.join(name, "run.json")):
-            raise wrong("folder", f"{name} holds no run.json: expected the folder of a run that came to an end")
+        v.text_in(name, "run.json", _OF_A_RUN)
         return cls(Study.load(os.path.join(name, "resolved.toml")), name)
 
     @property
     def table(self) -> str:
         """For people, Markdown: the run's summary.md."""
-        with open(os.path.join(self.folder, "summary.md"), encoding="utf-8") as file:
-            return file.read()
+        return v.text_in(self.folder, "summary.md", _OF_A_RUN)
 
     def to_dataframe(self) -> pandas.DataFrame:
         """A row for each finalist: its variables, each objective as confirmed and its ``..._error``, ``on_front``, ``ok``
@@ -295,8 +293,7 @@ class Run:
 
     def _told(self) -> dict[str, Any]:
         """run.json, as it stands in the folder now."""
-        with open(os.path.join(self.folder, "run.json"), encoding="utf-8") as file:
-            told: dict[str, Any] = json.load(file)
+        told = v.document_in(self.folder, "run.json", _OF_A_RUN)
         if "finalists" not in told:
             raise wrong("folder", f"{self.folder} was written by an older version: run its resolved.toml again")
         return told
@@ -306,6 +303,7 @@ class Run:
         return f"<papilla.Run {end} {self.evaluations} evaluations, {len(self.finalists)} finalists in {self.folder!r}>"
 
 
+_OF_A_RUN = "the folder of a run that came to an end"
 _Row = tuple[bool, str, list[float], list[float], list[float]]
 """Of a judgement: ok, reason, values, errors, violations."""
 Values = Union[Mapping[str, Any], Sequence[Any], FloatArray]

@@ -109,6 +109,9 @@ class FittedParameter:
     """Of what is known of it: 1 the data alone, 0 the prior alone."""
 
 
+_OF_A_FIT = "the folder of a finished fit"
+
+
 class Calibration:
     """A finger fitted to measurements."""
 
@@ -134,23 +137,19 @@ class Calibration:
         Raises InputError for a folder that is none.
         """
         place = os.path.abspath(v.path(folder, "folder"))
-        texts = {}
-        for name in ("fit.json", "fit.md", "finger.toml"):
-            try:
-                with open(os.path.join(place, name), encoding="utf-8") as file:
-                    texts[name] = file.read()
-            except OSError:
-                raise wrong("folder", f"{folder} holds no {name}: expected the folder of a finished fit") from None
-        told = json.loads(texts["fit.json"])
+        texts = {name: v.text_in(place, name, _OF_A_FIT) for name in ("fit.json", "fit.md", "finger.toml")}
         finger = texts["finger.toml"]
-        beside = tomllib.loads(finger).get("belief", "")
-        if beside:  # where it can be read from anywhere
-            absolute = json.dumps(os.path.join(place, beside), ensure_ascii=False)
-            finger = re.sub(r'(?m)^(belief\s*=\s*)"[^"]*"', lambda found: found[1] + absolute, finger, count=1)
-        rows = [(p["path"], p["value"], p["se"], p["low"], p["high"], p["data_share"]) for p in told["parameters"]]
-        # Folders of older versions do not tell it: theirs is trusted where nothing is warned of.
-        return cls({"explains_data": not told["warning"], **told, "parameters": rows, "finger": finger,
-                    "table": texts["fit.md"], "json": texts["fit.json"]})
+        with v.as_written(os.path.join(place, "finger.toml")):
+            beside = tomllib.loads(finger).get("belief", "")
+            if beside:  # where it can be read from anywhere
+                absolute = json.dumps(os.path.join(place, beside), ensure_ascii=False)
+                finger = re.sub(r'(?m)^(belief\s*=\s*)"[^"]*"', lambda found: found[1] + absolute, finger, count=1)
+        with v.as_written(os.path.join(place, "fit.json")):
+            told = json.loads(texts["fit.json"])
+            rows = [(p["path"], p["value"], p["se"], p["low"], p["high"], p["data_share"]) for p in told["parameters"]]
+            # Folders of older versions do not tell it: theirs is trusted where nothing is warned of.
+            return cls({"explains_data": not told["warning"], **told, "parameters": rows, "finger": finger,
+                        "table": texts["fit.md"], "json": texts["fit.json"]})
 
     def apply(self, design: Design) -> Design:
         """The design under the fitted finger, at the design's own load, state and touch time: all else of its own finger

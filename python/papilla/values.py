@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
 import os
 import re
+import secrets
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from typing import Any, Union
 
@@ -179,6 +181,59 @@ def named_file(value: Path, key: str) -> str:
     return name
 
 
+# Files in folders that anybody may have made: nothing is written through a link, and nothing read that is no file.
+
+
+def write_file(name: str, data: bytes | memoryview) -> None:
+    """Whole or not at all, with the mode of the file that it replaces; a link of the name is replaced, not followed."""
+    folder, base = os.path.split(name)
+    part = os.path.join(folder, f".{base[:40]}.{secrets.token_hex(8)}.part")  # a name that nobody can put a link at
+    handle = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
+    try:
+        with open(handle, "wb") as stream:
+            stream.write(data)
+            if os.path.isfile(name) and not os.path.islink(name):
+                os.fchmod(handle, os.stat(name).st_mode & 0o777)
+            stream.flush()
+            os.fsync(handle)
+        os.replace(part, name)
+    except BaseException:
+        os.unlink(part)
+        raise
+
+
+def text_in(folder: str, name: str, expected: str) -> str:
+    """A text in a folder. Raises InputError where it is no file: a pipe would wait for ever, a device never end."""
+    place = os.path.join(folder, name)
+    if not os.path.isfile(place):
+        raise wrong("folder", f"{folder} holds no {name}: expected {expected}")
+    try:
+        with open(place, encoding="utf-8") as file:
+            return file.read()
+    except (OSError, UnicodeDecodeError) as error:
+        raise wrong("folder", f"cannot read {place}: {error}") from None
+
+
+@contextlib.contextmanager
+def as_written(place: str) -> Iterator[None]:
+    """What is taken from a document that is not as it was written is an InputError, whatever Python calls it."""
+    try:
+        yield
+    except InputError:
+        raise
+    except (AttributeError, IndexError, KeyError, RecursionError, TypeError, ValueError) as error:
+        raise wrong("folder", f"{place} is not as papilla writes it ({type(error).__name__}: {error}): "
+                              "make its folder anew") from None
+
+
+def document_in(folder: str, name: str, expected: str) -> dict[str, Any]:
+    """A JSON object in a folder. Raises InputError."""
+    with as_written(os.path.join(folder, name)):
+        out: dict[str, Any] = json.loads(text_in(folder, name, expected))
+        out.keys()
+        return out
+
+
 def paths(values: Path | Sequence[Path], key: str) -> list[str]:
     """One name of a file, or several."""
     several = [values] if isinstance(values, (str, os.PathLike)) else items(values, key)
@@ -187,8 +242,12 @@ def paths(values: Path | Sequence[Path], key: str) -> list[str]:
 
 def height_map(z: npt.ArrayLike, key: str) -> FloatArray:
     """A map of numbers, shape (ny, nx): real, finite, none masked, 2 x 2 pixels at least."""
-    unmasked(z, key)
-    array = np.asarray(z)
+    for part in z if isinstance(z, (list, tuple)) else [z]:  # of rows in a list numpy.asarray drops the masks
+        unmasked(part, key)
+    try:
+        array = np.asarray(z)
+    except ValueError:
+        raise wrong(key, "expected an array of shape (ny, nx), got rows of several lengths") from None
     if array.dtype.kind not in "fiu":
         raise wrong(key, f"expected an array of real numbers, got dtype {array.dtype}")
     if array.ndim != 2:

@@ -104,6 +104,10 @@ def test_heights_in_another_unit_and_masked_ones_are_refused() -> None:
     with pytest.raises(pp.InputError, match="are masked"):
         pp.Design.from_heights(masked, "6 um")
     assert pp.Design.from_heights(np.ma.masked_less(z, z.min()), "6 um")  # none is masked
+    for rows, said in (([*masked], "of 64 values are masked"), ([z[0], z[1, :9]], "got rows of several lengths")):
+        with pytest.raises(pp.InputError, match=f"heights: .*{said}"):
+            pp.Design.from_heights(rows, "6 um")
+    assert pp.Design.from_heights([list(row) for row in z], "6 um") == pp.Design.from_heights(z, "6 um")
 
 
 def test_masked_numbers_are_refused() -> None:

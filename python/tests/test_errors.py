@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import os
 import pathlib
 import pickle
 import random
@@ -193,6 +195,51 @@ def test_damaged_files_are_refused(tmp_path: pathlib.Path) -> None:
         except pp.InputError:
             refused += 1
     assert refused > 30
+
+
+def test_saving_follows_no_link_of_a_stranger(tmp_path: pathlib.Path) -> None:
+    mine = tmp_path / "mine"
+    mine.write_text("mine")
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    for name in ("d.toml", "d.toml.part", "d.heights.npy.part"):
+        (folder / name).symlink_to(mine)
+    pp.Design(HOLES).save(folder / "d.toml")
+    pp.Design.from_heights(np.random.default_rng(1).random((8, 8)) * 1e-8, "1 um").save(folder / "d.toml")
+    assert mine.read_text() == "mine" and not (folder / "d.toml").is_symlink()
+    (folder / "d.toml").chmod(0o600)
+    pp.Design(HOLES).save(folder / "d.toml")
+    assert (folder / "d.toml").stat().st_mode & 0o777 == 0o600
+    assert not [file for file in folder.iterdir() if file.name.startswith(".")]  # nothing half written
+
+
+@pytest.mark.parametrize("name", ["fit.json", "fit.md", "finger.toml"])
+def test_a_pipe_in_a_folder_holds_nothing_up(tmp_path: pathlib.Path, name: str) -> None:
+    for other in ("fit.json", "fit.md", "finger.toml"):
+        if other != name:
+            (tmp_path / other).write_text("")
+    os.mkfifo(tmp_path / name)
+    with pytest.raises(pp.InputError, match=f"holds no {re.escape(name)}"):
+        pp.Calibration.open(tmp_path)
+
+
+RUN = {"interrupted": False, "feasible": True, "evaluations": 4, "best": 0, "finalists": [
+    {"folder": "front/01", "values": [2e-7],
+     **{stage: {"ok": True, "reason": "", "values": [1.0], "errors": [0.1], "violations": []} for stage in ("searched", "confirmed")}}]}
+
+
+@pytest.mark.parametrize("damaged", [
+    b"", b"3", b"[]", b"\xff", b"[" * 100000, json.dumps({**RUN, "finalists": [1]}).encode(), json.dumps({**RUN, "finalists": None}).encode(),
+    json.dumps({**RUN, "best": 1}).encode(), json.dumps({**RUN, "best": "x"}).encode(), b'{"finalists": [], "best": ' + b"1" * 5000 + b"}"], ids=range(10))
+def test_a_damaged_run_is_refused(tmp_path: pathlib.Path, damaged: bytes) -> None:
+    pp.Design(HOLES).save(tmp_path / "resolved.toml")
+    with open(tmp_path / "resolved.toml", "a", encoding="utf-8") as file:
+        file.write('[objective]\nminimise = "mean(friction)"\n[design_space]\n"texture.depth" = ["200 nm", "500 nm"]\n')
+    (tmp_path / "run.json").write_text(json.dumps(RUN))
+    assert pp.Run.open(tmp_path).best.point["texture.depth"] == 2e-7
+    (tmp_path / "run.json").write_bytes(damaged)
+    with pytest.raises(pp.InputError, match="run.json"):
+        pp.Run.open(tmp_path)
 
 
 def test_numbers_without_axes_and_single_texts_are_taken(tmp_path: pathlib.Path) -> None:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "api/inside.h"
 #include "estimate/evaluation.h"
@@ -22,11 +23,21 @@ Quantity quantity_of(const Measured& m) {
           m.parts.model_part()};
 }
 
-Point point_of(const ResponsePoint& p) {
+Quantity no_quantity() {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  Quantity out;
+  out.value = out.error = out.parts.sampling = out.numerical = kNone;
+  return out;
+}
+
+Point point_of(const ResponsePoint& p, bool driven) {
   Point out;
   out.relative_humidity = p.relative_humidity;
-  for (std::size_t k = 0; k < kQuantities<Quantity>.size(); ++k)
-    out.*kQuantities<Quantity>[k].value = quantity_of(p.*kQuantities<Measured>[k].value);
+  for (std::size_t k = 0; k < kQuantities<Quantity>.size(); ++k) {
+    const auto& row = kQuantities<Measured>[k];
+    out.*kQuantities<Quantity>[k].value =
+        exists(row.drive, p, driven) ? quantity_of(p.*row.value) : no_quantity();
+  }
   out.sound = p.said().sound();
   out.status = text(p.said());
   return out;
@@ -98,7 +109,8 @@ Response evaluated(const rooms::Design& design, const EvaluateOptions& options,
                                              .appearance = options.look,
                                              .voltage_for = options.voltage_for,
                                              .threads = options.threads});
-  for (const ResponsePoint& p : inside.response.points) inside.points.push_back(point_of(p));
+  for (const ResponsePoint& p : inside.response.points)
+    inside.points.push_back(point_of(p, inside.response.driven));
   return Response(std::make_shared<const Response::Inside>(std::move(inside)));
 }
 

@@ -51,6 +51,10 @@ class Watch {
     if (stop_here_ && *stop_here_) throw WorkStopped();
   }
 
+  // What ends the piece that this thread works on; null: nothing. For a watch within a piece that
+  // counts by itself and ends with it.
+  static const std::atomic<bool>* stop_of_piece() { return stop_here_; }
+
   // Throws what progress has thrown.
   void rethrow() const {
     if (failed_) std::rethrow_exception(failure_);
@@ -88,5 +92,9 @@ class Watch {
   std::exception_ptr failure_;  // of progress; written once, before failed_
   std::atomic<bool> failed_ = false;
 };
+
+// Whether the work was done within so many seconds of the clock: else it has ended at its next
+// piece, or where it next looks. It has no watch but this.
+bool done_within(double seconds, const std::function<void()>& work);
 
 }  // namespace papilla::base

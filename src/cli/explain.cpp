@@ -11,6 +11,7 @@
 
 #include "base/constants.h"
 #include "base/text.h"
+#include "base/watch.h"
 #include "cli/commands.h"
 #include "cli/look_time.h"
 #include "cli/scan_options.h"
@@ -93,8 +94,8 @@ std::string study_text(const StudyProblem& problem, const LookTime& look,
                        duration(clock * cost.belief_seconds));
   out += fmt::format("it searches on {0} x {0} pixels along 12 um", cost.pixels);
   if (std::isfinite(cost.feature))
-    out += fmt::format(", the smallest feature of its space, {:.3g} nm, is {:.2g} of them wide",
-                       1e9 * cost.feature, cost.feature_pixels);
+    out += fmt::format(", the smallest feature of its space, {} nm, is {:.2g} of them wide",
+                       significant(1e9 * cost.feature, 3), cost.feature_pixels);
   out += '\n';
   if (cost.plates > 0)
     out += fmt::format(
@@ -109,18 +110,29 @@ std::string study_text(const StudyProblem& problem, const LookTime& look,
   return out;
 }
 
-// What `papilla evaluate` would take here.
+// What `papilla evaluate` would take here; not of designs whose skins take minutes each.
 std::string time_text(const Design& design, const Fidelity& fidelity, const LookTime& look) {
+  constexpr double kPatience = 20;  // [s]
   const Scene scene = scene_of(design);
-  const double seconds = measured_seconds(scene, design.texture, fidelity);
+  double seconds = 0;
+  if (!done_within(kPatience, [&] { seconds = measured_seconds(scene, design.texture, fidelity); }))
+    return fmt::format(
+        "not measured on this machine: two of its skins take more than {}; the time above is that "
+        "of the plan\n",
+        duration(kPatience));
   std::string out = fmt::format("on this machine about {} of one core, as two of the skins tell",
                                 duration(seconds));
   if (!look.theory.empty())
     out += fmt::format(", {} for the look (--appearance: with)", duration(look.each));
-  if (const ModelCost cost = model_cost(scene, fidelity); cost.members > 0)
-    out += fmt::format(", and {} for the {} members of the finger's belief (--no-model: without)",
-                       duration(measured_belief_seconds(scene, design.texture, fidelity)),
+  if (const ModelCost cost = model_cost(scene, fidelity); cost.members > 0) {
+    const auto measure = [&] {
+      seconds = measured_belief_seconds(scene, design.texture, fidelity);
+    };
+    out += done_within(kPatience, measure) ? fmt::format(", and {}", duration(seconds))
+                                           : fmt::format(", and more than {}", duration(kPatience));
+    out += fmt::format(" for the {} members of the finger's belief (--no-model: without)",
                        cost.members);
+  }
   return out + '\n';
 }
 
@@ -194,8 +206,8 @@ int explain(const Context& context, const DesignOptions& options, bool measure) 
       text +=
           "accuracy.level and accuracy.grid count for --sweep, --voltage-for and pictures only\n";
   }
-  text += plan.text();
-  text += time_text(design, fidelity, look);
+  context.print(text + plan.text());  // before what takes its time
+  text = time_text(design, fidelity, look);
   for (const std::string& line : calibration_mismatch(design)) text += "warning: " + line + '\n';
   for (const std::string& rims : cut_rims_of(design.texture, "texture"))
     text += "warning: " + rims + '\n';

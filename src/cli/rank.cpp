@@ -1,6 +1,8 @@
 // papilla rank: candidates in order, with intervals and the probability of being best.
 #include "rank/rank.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -87,11 +89,14 @@ Design read_region(const std::string& file, const RankCommand& command) {
   return out;
 }
 
-// File stems, of the first region; with the folder where stems repeat.
+// File stems, of the first region and how many more there are; with the folder where stems repeat.
 std::vector<std::string> short_names(const std::vector<std::string>& files) {
   std::vector<std::string> names;
-  for (const std::string& file : files)
-    names.push_back(std::filesystem::path(regions_named(file).front()).stem().string());
+  for (const std::string& file : files) {
+    const std::vector<std::string> regions = regions_named(file);
+    names.push_back(std::filesystem::path(regions.front()).stem().string());
+    if (regions.size() > 1) names.back() += fmt::format(" and {} more", regions.size() - 1);
+  }
   const std::vector<std::string> stems = names;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::count(stems.begin(), stems.end(), stems[i]) > 1) names[i] = files[i];

@@ -46,7 +46,6 @@ int serve(const Context& context, const StudioCommand& command) {
 
   StudioOptions options;
   options.file = command.file;
-  if (!command.folder.empty()) make_folder(command.folder);
   options.folder = command.folder;
   options.port = command.port;
   options.program = std::filesystem::read_symlink("/proc/self/exe").string();

@@ -62,10 +62,14 @@ Texture of_kind(const Texture& texture, const std::string& kind) {
   if (texture.kind.index() == index) return texture;
   Texture own = texture, out = default_texture(index);
   const Roles from = roles(own), to = roles(out);
+  const bool wide = to.period && to.width;
+  const double share = wide ? *to.width / *to.period : 0;
   for (const auto& measure : kMeasures) {
     if (from.*measure && to.*measure) *(to.*measure) = *(from.*measure);
   }
   if (from.lattice && to.lattice) *to.lattice = *from.lattice;
+  // Waves have no width, that of sharp ridges is their period.
+  if (wide && *to.width >= *to.period && !problems(out).empty()) *to.width = share * *to.period;
   return out;
 }
 

@@ -12,7 +12,8 @@
 namespace papilla::design {
 
 // A texture of another kind (one of texture_kinds()) with the lattice and the measures of this one
-// as far as that kind has them, defaults elsewhere.
+// as far as that kind has them, defaults elsewhere; a width that the period has no room for is the
+// share of the period that it is by default.
 Texture of_kind(const Texture& texture, const std::string& kind);
 
 // Parts of a stack, 1 for anything else; a stack with its first parts alone; whether the last part

@@ -149,8 +149,9 @@ std::string study_name(const std::string& path) {
   const fs::path file(path);
   const std::string stem = file.stem().string();
   if (stem != "study" && stem != "resolved" && stem != "design") return stem;
+  // The command line takes no name that is no UTF-8, but may stand in a folder of one.
   const std::string folder =
-      fs::absolute(file).lexically_normal().parent_path().filename().string();
+      visible(fs::absolute(file).lexically_normal().parent_path().filename().string());
   return folder.empty() ? stem : folder;
 }
 
@@ -178,6 +179,9 @@ bool StudyFile::falls_away(const std::string& section, const std::string& path, 
   if (asked_for || !path.starts_with("texture.") || numbers.has(path) ||
       type == document.origins().end() || type->second.file == node.key_place.file)
     return false;
+  // The file itself knows the kind of its base: in it such a number is a mistake.
+  const bool kind_of_base = type->second.line > 0;
+  if (kind_of_base && node.key_place.file == study.file) return false;
   study.fallen_away.push_back(section + "." + path);
   if (Node* kept = study.study_sections.find(section)) erase_member(*kept, path);
   return true;

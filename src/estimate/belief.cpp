@@ -31,7 +31,7 @@ std::string absent_belief(const Scene& scene) {
 // The scene as it is or at a member; `resolved`: with areas as the number itself has them, where
 // the pixels leave octaves out. Eq. accuracy.17
 Response run_few(const Scene& scene, const Texture& texture, const Fidelity& few, bool resolved) {
-  const Watch quiet({}, nullptr);  // members are counted, not their skins
+  const Watch quiet({}, Watch::stop_of_piece());  // members are counted, not their skins
   return resolved ? evaluate_resolved(scene, texture, few, kFewDrySkins)
                   : evaluate(scene, texture, few);
 }

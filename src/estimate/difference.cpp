@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -24,6 +25,13 @@ std::optional<BeliefDifference> over_belief(const std::optional<BeliefValues>& f
                                             const Response& a, const Response& b) {
   if (!first || !second || a.belief.file != b.belief.file) return std::nullopt;
   return belief_difference(*second, *first);
+}
+
+// Where one of two states does not exist, beyond breakdown or full contact, nothing is known of
+// what lies between them.
+ResponseDifference no_difference() {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  return {kNone, kNone, false, std::nullopt};
 }
 
 [[noreturn]] void undefined(const Metric& metric, const Response& response) {
@@ -52,6 +60,8 @@ ResponseDifference difference_at(std::size_t point, const Metric& metric, const 
              b = metric_at(metric, second.points.at(point));
   if (!a) undefined(metric, first);
   if (!b) undefined(metric, second);
+  if (!is_known(metric, first.points[point]) || !is_known(metric, second.points[point]))
+    return no_difference();
   ResponseDifference out =
       difference(a->value, b->value, a->se(), b->se(), error_samples_at(point, metric, first),
                  error_samples_at(point, metric, second));
@@ -65,6 +75,7 @@ ResponseDifference difference_of(const MetricExpression& e, const Response& firs
   const auto a = summarise(e.summary, e.metric, first), b = summarise(e.summary, e.metric, second);
   if (!a) undefined(e.metric, first);
   if (!b) undefined(e.metric, second);
+  if (!is_known(e.metric, first) || !is_known(e.metric, second)) return no_difference();
   ResponseDifference out =
       difference(a->value, b->value, a->se, b->se, error_samples(e.summary, e.metric, first),
                  error_samples(e.summary, e.metric, second));

@@ -20,7 +20,8 @@ struct ResponseDifference {
   // how probable it is that the second has more.
   std::optional<BeliefDifference> model{};
 };
-// At one humidity, and of a summary over all. Throws InputError where the metric has no value.
+// At one humidity, and of a summary over all. NaN where one of the states does not exist
+// (`is_known`). Throws InputError where the metric has no value.
 ResponseDifference difference_at(std::size_t point, const Metric& metric, const Response& first,
                                  const Response& second);
 ResponseDifference difference_of(const MetricExpression& expression, const Response& first,

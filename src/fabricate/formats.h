@@ -32,7 +32,9 @@ struct ExportFormat {
   bool needs_dose_curve = false;  // depth over grey
   bool repeated = false;          // its map stands there so many times: ExportOptions::repeat
   bool asked_only = false;        // not among the files of an export that names no formats
-  int judged = 0;                 // when its heights are simulated again, 1 first; 0: never
+  // Pixels of the map that a byte of it can hold, packed as well as can be; 0: none.
+  double pixels_per_byte = 0;
+  int judged = 0;  // when its heights are simulated again, 1 first; 0: never
   void (*write)(const ExportSource& source, const std::string& path, Export& out) = nullptr;
   // What of a file is not as the source has it. Throws InputError for one that cannot be read.
   std::vector<std::string> (*check)(const ExportSource& source, const std::string& path) = nullptr;

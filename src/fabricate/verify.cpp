@@ -93,18 +93,21 @@ std::vector<ExportedFile> strangers(const ExportRecord& record, const std::strin
   return out;
 }
 
-// How many pixels the files of a record can hold: a record is a text that anybody can write, and
-// memory is taken for as many as it asks for. Deflate packs a pixel of 16 bits into 1/516 byte at
-// best.
+// How many pixels the maps of a record can hold: a record is a text that anybody can write, and
+// memory is taken for as many as it asks for. Of layouts alone nobody knows.
 double pixels_held(const ExportRecord& record) {
-  constexpr double kPixelsPerByte = 2000, kAlways = 1 << 24;
-  double bytes = 0;
+  constexpr double kAlways = 1 << 24;
+  double pixels = 0;
+  bool maps = false;
   for (const ExportedFile& file : record.files) {
+    if (file.format == kDesignFormat) continue;
+    const double per_byte = find_export_format(file.format).pixels_per_byte;
+    maps = maps || per_byte > 0;
     std::error_code missing;
     const auto size = std::filesystem::file_size(file.path, missing);
-    if (!missing) bytes += static_cast<double>(size);
+    if (!missing) pixels = std::max(pixels, per_byte * static_cast<double>(size));
   }
-  return std::clamp(kPixelsPerByte * bytes, kAlways, kMostPixels);
+  return maps ? std::clamp(pixels, kAlways, kMostPixels) : kMostPixels;
 }
 
 FileVerdict verify_stranger(const ExportRecord& record, const Export& made,
@@ -228,7 +231,11 @@ Verification held_against(const std::string& against, const Study& study, const 
   const Plan plan = make_plan(scene, design.texture, fidelity);
   out.merit = design.drive.driven() ? "mean(modulation)" : "mean(friction)";
   const Metric metric = design.drive.driven() ? kModulation : kFriction;
-  out.design = mean_of(metric, evaluate(scene, design.texture, fidelity));
+  const Response own = evaluate(scene, design.texture, fidelity);
+  out.design = mean_of(metric, own);
+  // The files may be right all the same.
+  if (const auto said = own.said(); !said.empty())
+    out.notes.push_back("of the design itself: " + text(said));
   // Where nothing repeats as much of the map as a patch of the design is; whole, where it is hardly
   // larger. What repeats is laid on the patch of the design cell by cell, from its corner: half a
   // period further skins would meet it at other places.

@@ -351,15 +351,14 @@ std::vector<std::string> breakdown_lines(const WaferPlan& plan, const Expectatio
       const double holds = std::min(margin.solved, margin.bridged);
       if (holds >= 1) continue;
       out.push_back(fmt::format(
-          "{} at {}: the dielectric {}, at most {:.3g} V hold{}", t.name,
-          format_quantity(voltage, "V"),
+          "{} at {}: the dielectric {}, at most {} V hold{}", t.name, format_quantity(voltage, "V"),
           margin.solved < 1
               ? fmt::format("breaks down: the field in a layer is {:.3g} times its strength",
                             1 / margin.solved)
               : fmt::format("is at risk: under a bridge or a contact on its thinnest place the "
                             "field is {:.3g} times its strength",
                             1 / margin.bridged),
-          holds * voltage, margin.solved < 1 ? "; no modulation is expected" : ""));
+          significant(holds * voltage, 3), margin.solved < 1 ? "; no modulation is expected" : ""));
     }
   }
   return out;

@@ -166,6 +166,25 @@ ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity, co
   return out;
 }
 
+ControlFidelities control_fidelities(const Fidelity& fidelity, const Plan& plan) {
+  ControlFidelities out;
+  out.skins = std::min(fidelity.control_skins, fidelity.skins);
+  if (out.skins < 2) return {};
+  Fidelity resolved = fidelity;
+  resolved.skins = out.skins;
+  if (fidelity.estimator == Estimator::Load && (plan.water || plan.field)) {
+    resolved.estimator = Estimator::Area;
+    out.areas = resolved;
+  }
+  if (fidelity.grid / 2 >= kSmallestGrid) {
+    out.coarse = resolved;
+    out.coarse->grid = fidelity.grid / 2;
+    out.coarse->most_pixels =
+        fidelity.pixels_per_side() / 2;  // else long patches keep their pixels
+  }
+  return out;
+}
+
 double resolved_areas(const ControlRuns& runs) {
   if (runs.coarse.points.empty() || runs.octaves <= 0) return 1;
   std::vector<double> steps;
@@ -187,24 +206,22 @@ namespace {
 class Controls {
  public:
   Controls(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
-           const FieldRatios& field, int skins)
-      : scene_(scene), texture_(texture), fidelity_(fidelity), field_(field), skins_(skins) {}
+           const FieldRatios& field, const ControlFidelities& by)
+      : scene_(scene), texture_(texture), fidelity_(fidelity), field_(field), by_(by) {}
 
   // As it was, by solved areas where it was by the load law, and on half the pixels.
   void run(PatchSet& patches) {
     ControlRuns& out = patches.controls;
     PatchSet first = patches;
-    for (auto& results : first.results) results.resize(static_cast<std::size_t>(skins_));
+    for (auto& results : first.results) results.resize(static_cast<std::size_t>(by_.skins));
     first.solved.clear();  // by the law as it is, which its skins' areas are compared with
     out.own = respond(scene_, fidelity_, first);
     out.friction_by_load = scene_.touch.coefficient > 0;
     out.octaves =
         std::max(0.0, std::log2(patches.plan.effective_cutoff / patches.plan.skin_cutoff));
-    Fidelity resolved = fidelity_;
-    if (fidelity_.estimator == Estimator::Load && (patches.plan.water || patches.plan.field)) {
-      resolved.estimator = Estimator::Area;
-      const PatchSet areas = again(resolved, method);
-      out.areas = respond(scene_, resolved, areas);
+    if (by_.areas) {
+      const PatchSet areas = again(*by_.areas, method);
+      out.areas = respond(scene_, *by_.areas, areas);
       for (const auto& results : areas.results) {
         ModelStatus& status = method.pull_in.emplace_back();
         for (const PatchResult& p : results) {
@@ -212,12 +229,9 @@ class Controls {
         }
       }
     }
-    if (fidelity_.grid / 2 >= kSmallestGrid) {
-      Fidelity half = resolved;
-      half.grid = fidelity_.grid / 2;
-      half.most_pixels = fidelity_.pixels_per_side() / 2;  // else long patches keep their pixels
-      const PatchSet coarse = again(half, grid);
-      out.coarse = respond(scene_, half, coarse);
+    if (by_.coarse) {
+      const PatchSet coarse = again(*by_.coarse, grid);
+      out.coarse = respond(scene_, *by_.coarse, coarse);
       out.coarse_features =
           missing_of_features(patches.plan.feature_pixels) * own_step(patches.plan, coarse.plan);
     }
@@ -226,8 +240,7 @@ class Controls {
   MeasuredError grid{&ErrorParts::grid, {}}, method{&ErrorParts::method, {}};
 
  private:
-  PatchSet again(Fidelity changed, MeasuredError& error) const {
-    changed.skins = skins_;
+  PatchSet again(const Fidelity& changed, MeasuredError& error) const {
     PatchSet set = solve_patches(scene_, texture_, changed, field_);
     error.seconds += set.seconds;
     error.costs += set.costs();
@@ -238,7 +251,7 @@ class Controls {
   const Texture& texture_;
   const Fidelity& fidelity_;
   const FieldRatios field_;
-  int skins_;
+  const ControlFidelities& by_;
 };
 
 // The two errors of quantity m at each humidity; resolved: that of areas on these pixels.
@@ -276,9 +289,9 @@ void measure_errors(const Scene& scene, const Texture& texture, const Fidelity& 
   patches.errors.clear();
   patches.controls = {};
   patches.area_factor = 1;
-  const int skins = std::min(fidelity.control_skins, patches.skins());
-  if (skins < 2) return;
-  Controls again(scene, texture, fidelity, patches.field, skins);
+  const ControlFidelities by = control_fidelities(fidelity, patches.plan);
+  if (by.skins == 0) return;
+  Controls again(scene, texture, fidelity, patches.field, by);
   again.run(patches);
   const ControlRuns& controls = patches.controls;
   patches.area_factor = resolved_areas(controls);

@@ -17,6 +17,14 @@ namespace papilla::forward {
 void measure_errors(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
                     PatchSet& patches);
 
+// What control skins are run again by: contact areas solved in place of the load law, and half the
+// pixels; none where there is no such run.
+struct ControlFidelities {
+  int skins = 0;
+  std::optional<Fidelity> areas, coarse;
+};
+ControlFidelities control_fidelities(const Fidelity& fidelity, const Plan& plan);
+
 // What contact areas of the runs are to be multiplied with, so that they are those of the whole
 // skin: the octaves of its spectrum that the grid leaves out would make them smaller, by as much
 // each as half the pixels make them larger. 1 where none are left out. Eq. accuracy.2

@@ -125,9 +125,13 @@ FieldRatio field_ratio(std::span<const std::optional<double>> full, std::span<co
   return out;
 }
 
-bool field_corrected(const Scene& scene, const Fidelity& fidelity) {
+bool field_solved(const Scene& scene, const Fidelity& fidelity) {
   return scene.drive.driven() && fidelity.field_skins > 0 && scene.model.preset != Preset::M3 &&
-         field_method(scene.model) == FieldMethod::Spread;
+         field_method(scene.model) != FieldMethod::Full;
+}
+
+bool field_corrected(const Scene& scene, const Fidelity& fidelity) {
+  return field_solved(scene, fidelity) && field_method(scene.model) == FieldMethod::Spread;
 }
 
 double field_ratio_seconds(const Scene& scene, const Grid& grid, const Fidelity& fidelity) {

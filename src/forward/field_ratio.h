@@ -31,8 +31,9 @@ FieldRatios field_ratios(const Scene& scene, const Texture& texture, const Fidel
 FieldRatio field_ratio(std::span<const std::optional<double>> full, std::span<const double> rule,
                        bool corrected);
 
-// Whether the rule's pull will be corrected, the relative error of the pull then, and the price of
-// it [s] on one core.
+// Whether 3-D fields are solved beside the rule; whether the rule's pull will be corrected by them,
+// the relative error of the pull then, and the price of it [s] on one core.
+bool field_solved(const Scene& scene, const Fidelity& fidelity);
 bool field_corrected(const Scene& scene, const Fidelity& fidelity);
 inline constexpr double kCorrectedFieldError = 0.03;
 // What pixels and cells of the 3-D field leave of the pull that is corrected to it, relative, at

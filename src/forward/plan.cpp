@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "base/constants.h"
+#include "base/text.h"
 #include "forward/electric_path.h"
 #include "forward/field_ratio.h"
 #include "forward/scene_terms.h"
@@ -28,9 +29,9 @@ std::string coarse_features(const Plan& plan, const Fidelity& fidelity, double s
   double pixels = plan.feature_pixels;
   for (; pixels < kFewPixels && grid < kLargestKey; grid *= 2) pixels *= 2;
   return fmt::format(
-      "the smallest feature of the texture, {:.3g} nm, is {:.2g} pixels wide: its friction is "
+      "the smallest feature of the texture, {} nm, is {:.2g} pixels wide: its friction is "
       "known as well as its error part `grid` says and not better; {}",
-      1e9 * smallest, plan.feature_pixels,
+      significant(1e9 * smallest, 3), plan.feature_pixels,
       pixels >= kFewPixels ? fmt::format("accuracy.grid = {} gives it {:.2g}", grid, pixels)
                            : fmt::format("no grid up to {} resolves it", kLargestKey));
 }
@@ -66,8 +67,8 @@ std::string source_at_compliance(const Scene& scene) {
   }
   if (humidities.empty()) return {};
   return fmt::format(
-      "at {} RH {:.3g} mA would need more than source_compliance, {:.3g} V: judged at that voltage",
-      humidities, 1e3 * scene.drive.current, scene.drive.source_compliance);
+      "at {} RH {:.3g} mA would need more than source_compliance, {} V: judged at that voltage",
+      humidities, 1e3 * scene.drive.current, significant(scene.drive.source_compliance, 3));
 }
 
 // The impedance is that of a spectrum, and a pin by a map has none.
@@ -89,7 +90,7 @@ std::string nearly_wetting(const Scene& scene, bool water) {
   return fmt::format(
       "nearly wetting, {:.2g} deg: droplets this flat merge into few, and a film would spread in "
       "their place; model.water = \"threshold\" gives that limit (flat glass at 0 deg, 55 % RH: "
-      "modulation 1.07 by droplets, 0.17 by a film), and what is between is not known",
+      "modulation of some 0.75 by droplets, 0.25 by a film), and what is between is not known",
       angle * 180 / kPi);
 }
 

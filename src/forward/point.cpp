@@ -108,13 +108,13 @@ OffAndOn areas_by_load(ResponsePoint& point, const ScaleBridge& bridge, Patches 
   const auto by_law = [&](double growth, const std::vector<double>& loads) {
     const double ratio = ratio_estimate(loads, preload).value;
     const double factor = fidelity.area_by_load(ratio / growth);
-    const double open = area_factor * dry_mean * factor;
+    const double pressed = area_factor * dry_mean * growth, open = pressed * factor;
     // A contact that the load alone has closed cannot grow: it is held at the patch, as it is.
     if (dry_mean <= 1 - kLeastLeftOpen) note_full_contact(point, setting.scene, open);
     GrownArea out;
     out.area.samples.resize(dry.size());
-    if (open > 0) out.held = grown(area_factor * dry_mean, factor) / open;
-    out.area.value = open * out.held * growth;
+    if (open > 0) out.held = grown(pressed, factor) / open;
+    out.area.value = open * out.held;
     if (!(open > 0)) return out;
     // Each skin by its own dry area and its own loads.
     const double mean = mean_estimate(loads).value;

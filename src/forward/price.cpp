@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <optional>
 
 #include "base/constants.h"
 #include "base/parallel.h"
+#include "forward/errors.h"
 #include "forward/field_ratio.h"
+#include "forward/load_law.h"
 #include "forward/patch_set.h"
 #include "forward/patch_setup.h"
 
@@ -16,19 +19,6 @@ namespace papilla::forward {
 namespace {
 
 constexpr int kSkins = 2;
-constexpr double kControlSetups = 1.25;  // on all pixels, and on half of a side
-
-// The control skins over all skins, as plans price them.
-double control_share(const Plan& plan) {
-  double controls = 0, patches = 0;
-  for (const PlanStep& step : plan.steps) {
-    if (step.piece == Piece::Errors)
-      controls += step.seconds;
-    else
-      patches += step.seconds;
-  }
-  return patches > 0 ? controls / patches : 0;
-}
 
 }  // namespace
 
@@ -46,46 +36,64 @@ double work_seconds(const std::function<void()>& work) {
 double measured_seconds(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
   Fidelity few = fidelity;
   few.threads = 1;
-  const int least = std::min(kSkins, fidelity.skins);
-  few.skins = least;
   few.control_skins = 0;
   few.field_skins = 0;
-  const auto make = [&] { const PatchSetup made(scene, texture, few); };
-  const double setup = work_seconds(make), again = work_seconds(make);  // some of it is kept
-  const auto solved = [&](int skins) {
+  const auto make = [&](const Fidelity& of) {
+    return work_seconds([&] { const PatchSetup made(scene, texture, of); });
+  };
+  const double setup = make(few), again = make(few);  // some of it is kept
+  double out = setup;
+
+  // First the field: its patches are pulled as it corrects them, which may take most of the pull.
+  FieldRatios ratios;
+  if (field_solved(scene, fidelity)) {
+    const std::vector<double>& humidities = scene.environment.relative_humidity;
+    Scene ends = scene;  // fields may differ in cost from the driest to the dampest
+    if (humidities.size() > 2)
+      ends.environment.relative_humidity = {humidities.front(), humidities.back()};
+    Fidelity in_3d = few;
+    in_3d.field_skins = 1;
+    const double measured = work_seconds([&] { ratios = field_ratios(ends, texture, in_3d); });
+    const double pixels =
+        std::min(1.0, square(static_cast<double>(kMostFieldPixels) / fidelity.grid));
+    const auto fields = static_cast<double>(humidities.size()) * fidelity.field_skins;
+    out += measured + (fields / static_cast<double>(ratios.size()) - 1) *
+                          std::max(0.0, measured - again * pixels);
+    ratios.resize(humidities.size(), ratios.back());
+  }
+
+  const auto solved = [&](const Fidelity& of) {
+    return work_seconds([&] { solve_patches(scene, texture, of, ratios); });
+  };
+  const PatchSetup whole(scene, texture, fidelity);
+  const Plan& plan = whole.plan();
+  // By the load law few skins find their equilibrium, and the others take its law. Of those no more
+  // are solved here than there are skins: they would be solved beside them.
+  const int settling = sampled_skins(whole, plan);
+  const auto of_skins = [&](int skins, int settled) {
     few.skins = skins;
-    return work_seconds([&] { solve_patches(scene, texture, few); }) - again;
+    few.equilibrium_skins = std::min(settled, settling);
+    return solved(few) - again;
   };
   // The first skin makes tables and transforms that the others have.
-  const double first = solved(1), both = solved(least);
+  const int least = std::min(kSkins, fidelity.skins);
+  const double first = of_skins(1, 1), both = of_skins(least, least);
+  const int settled = std::min(least, settling);
+  const double equilibrium = settled > 0 ? std::max(0.0, both - of_skins(least, 0)) / settled : 0.0;
+  const double skin = std::max(0.0, (both - settled * equilibrium) / least),
+               made_once = std::max(0.0, first - skin - std::min(1, settling) * equilibrium);
+  out += made_once + std::max(fidelity.skins, settling) * skin + settling * equilibrium;
 
-  Fidelity whole = fidelity;  // but for the 3-D field
-  whole.field_skins = 0;
-  const Plan plan = make_plan(scene, texture, whole);
-  // By the load law few skins find their equilibrium, and the others take its law.
-  double equilibrium = 0;
-  const int settled = std::min(fidelity.equilibrium_skins, fidelity.skins);
-  if (least > 1 && settled > 1 && settled < fidelity.skins && !plan.traction_solves) {
-    few.equilibrium_skins = 1;
-    equilibrium = std::max(0.0, both - solved(least)) / (least - 1);
-    few.equilibrium_skins = fidelity.equilibrium_skins;
+  const ControlFidelities controls = control_fidelities(fidelity, plan);
+  for (const std::optional<Fidelity>& of : {controls.areas, controls.coarse}) {
+    if (!of) continue;
+    Fidelity one = *of;
+    one.threads = 1;
+    one.skins = 1;
+    const double made = make(one);
+    out += made + controls.skins * std::max(0.0, solved(one) - made);
   }
-  const double skin = std::max(0.0, both / least - equilibrium),
-               made_once = std::max(0.0, first - skin - equilibrium),
-               controls = control_share(plan);
-  double out = setup + made_once + (fidelity.skins * skin + settled * equilibrium) * (1 + controls);
-  if (controls > 0) out += setup * kControlSetups;
-  if (!field_corrected(scene, fidelity)) return out;
-
-  Scene once = scene;
-  std::vector<double>& humidities = once.environment.relative_humidity;
-  const auto fields = static_cast<double>(humidities.size()) * fidelity.field_skins;
-  humidities = {humidities[humidities.size() / 2]};
-  few.field_skins = 1;
-  const double pixels =
-      std::min(1.0, square(static_cast<double>(kMostFieldPixels) / fidelity.grid));
-  const double one = work_seconds([&] { field_ratios(once, texture, few); });
-  return out + one + (fields - 1) * std::max(0.0, one - again * pixels);
+  return out;
 }
 
 double machine_pace(const std::vector<Scene>& scenes, const Texture& texture,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/check.h"
+#include "base/text.h"
 
 namespace papilla::forward {
 
@@ -61,11 +62,11 @@ std::string text(const VoltageAnswer& answer) {
     case VoltageEnd::NoDielectric:
       return "no dielectric, or none on side walls: contact would short the drive";
     case VoltageEnd::Breakdown:
-      return fmt::format("the dielectric breaks down at {:.4g} V", answer.limit);
+      return fmt::format("the dielectric breaks down at {} V", significant(answer.limit, 4));
     case VoltageEnd::SourceEnds:
-      return fmt::format("the source ends at {:.4g} V", answer.limit);
+      return fmt::format("the source ends at {} V", significant(answer.limit, 4));
     case VoltageEnd::ModelEnds:
-      return fmt::format("{} at {:.3g} V", text(answer.model), answer.limit);
+      return fmt::format("{} at {} V", text(answer.model), significant(answer.limit, 3));
     case VoltageEnd::Unsound:
       return text(answer.model);
     case VoltageEnd::NotConverged:

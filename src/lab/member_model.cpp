@@ -177,7 +177,7 @@ DesignRuns runs_of(const Design& design, const Belief& belief, int threads) {
       static_cast<int>(scenes.size()),
       [&](int i) {
         const auto k = static_cast<std::size_t>(i);
-        const Watch quiet({}, nullptr);  // members are counted, not their skins
+        const Watch quiet({}, Watch::stop_of_piece());  // members are counted, not their skins
         out.members[k] = respond(scenes[k], few, solve_patches(scenes[k], design.texture, few));
       },
       threads);

@@ -264,6 +264,22 @@ std::optional<Measured> metric_at(const Metric& metric, const ResponsePoint& poi
   return std::visit(AtPoint{point}, metric);
 }
 
+bool is_known(const Metric& metric, const ResponsePoint& point) {
+  if (std::holds_alternative<Felt>(metric)) return point.knows_driven();
+  const auto* metric_quantity = std::get_if<QuantityMetric>(&metric);
+  if (!metric_quantity) return true;
+  for (const auto& q : api::kQuantities<Measured>) {
+    if (q.value != metric_quantity->quantity || q.drive == api::FingerDrive::Any) continue;
+    return q.drive == api::FingerDrive::Off ? point.knows_undriven() : point.knows_driven();
+  }
+  return true;
+}
+
+bool is_known(const Metric& metric, const Response& response) {
+  return std::all_of(response.points.begin(), response.points.end(),
+                     [&](const ResponsePoint& point) { return is_known(metric, point); });
+}
+
 const VoltageAnswer* voltage_answer(const Metric& metric, const ResponsePoint& point) {
   const auto* voltage = std::get_if<VoltageFor>(&metric);
   if (!voltage) return nullptr;

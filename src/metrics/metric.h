@@ -83,6 +83,12 @@ std::string metric_text(const Metric& metric);
 // not reach its modulation, a look).
 std::optional<Measured> metric_at(const Metric& metric, const ResponsePoint& point);
 
+// Whether the state exists that the value at a point is of, or at every humidity of a response:
+// none beyond full contact, nor under a voltage that breaks the dielectric down. Voltages, how far
+// pull-in is and looks are of no such state.
+bool is_known(const Metric& metric, const ResponsePoint& point);
+bool is_known(const Metric& metric, const Response& response);
+
 // The answer that a voltage_for metric is of; null for other metrics, and where it has no value.
 const VoltageAnswer* voltage_answer(const Metric& metric, const ResponsePoint& point);
 

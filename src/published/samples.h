@@ -66,7 +66,8 @@ class Skins {
   std::size_t index_;
 };
 
-// Means over skins of a sample at a humidity (its place in the list).
+// Means over skins of a sample at a humidity (its place in the list). Friction is without
+// retention: the paper's is shear strength times contact area.
 double friction_off(const Sample& s, int rh, Skins over);  // [N]
 double friction_on(const Sample& s, int rh, Skins over);
 double effect(const Sample& s, int rh, Skins over);  // Delta F [N]

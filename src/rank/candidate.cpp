@@ -126,6 +126,7 @@ void Candidate::extend() {
   Response response;
   response.driven = scene_.drive.driven();
   if (options_.felt()) response = respond(scene_, fidelity_, patches_);
+  trouble_ = text(response.said());
   const auto values = [&] {
     std::vector<double> out;
     for (const Criterion& c : options_.criteria)

@@ -37,6 +37,8 @@ class Candidate {
   // How far its look can be trusted, for people: of the first arrangement that says so; "": it can,
   // or nothing is looked at.
   std::string look_warning() const;
+  // What the model says against the numbers on the skins met so far, for people; "": nothing.
+  const std::string& trouble() const { return trouble_; }
 
  private:
   // What is measured once of each region, since it is the same on all skins.
@@ -62,6 +64,7 @@ class Candidate {
   bool random_ = false;  // another arrangement of it has another look
   PatchSet patches_;     // of a candidate that is looked at alone, none
   int skins_ = 0;
+  std::string trouble_;
   std::vector<RegionLaws> known_;
   std::vector<double> values_;               // [criterion] on all skins that it met
   std::vector<std::vector<double>> pseudo_;  // [criterion][skin]

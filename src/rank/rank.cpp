@@ -278,6 +278,7 @@ class StateRanker {
     r.index = i;
     r.skins = candidates_[i].tried();
     r.look_warning = candidates_[i].look_warning();
+    r.trouble = candidates_[i].trouble();
     for (std::size_t j = 0; j < candidates_.size(); ++j) {
       bool ahead = false, behind = false;
       for (const Board& board : boards) {
@@ -498,6 +499,18 @@ std::vector<std::string> notes_of_looks(const std::vector<StateRanking>& states,
   return out;
 }
 
+// What the model says against the numbers of candidates, in the order of the files.
+std::vector<std::string> notes_of_troubles(const StateRanking& state,
+                                           const std::vector<std::string>& names) {
+  std::vector<std::string> out(names.size());
+  for (const RankedCandidate& r : state.candidates) {
+    if (!r.trouble.empty())
+      out[r.index] = fmt::format("{}, {}: {}", names[r.index], state.touching, r.trouble);
+  }
+  std::erase(out, "");
+  return out;
+}
+
 // Surfaces without a shear strength of their own all have the finger's on glass.
 std::vector<std::string> notes_of(const std::vector<Regions>& candidates,
                                   const std::vector<std::string>& names,
@@ -605,6 +618,8 @@ Ranking ranking_of(const std::vector<Regions>& named, const RankOptions& options
     out.states.push_back(StateRanker(candidates, state, options).run());
     out.states.back().touching = touching_of(candidates, state, options);
     out.skins += out.states.back().skins;
+    for (std::string& note : notes_of_troubles(out.states.back(), names))
+      out.notes.push_back(std::move(note));
   }
   for (std::string& note : notes_of_looks(out.states, names)) out.notes.push_back(std::move(note));
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -32,6 +32,7 @@ struct RankedCandidate {
   std::vector<Relation> over;     // of each design as given; Open for itself
   int skins = 0;                  // of what is looked at alone, arrangements seen
   std::string look_warning;       // how far its look can be trusted; "": it can, or there is none
+  std::string trouble;            // what the model says against its numbers; "": nothing
   // Where there is one score:
   bool tied_with_next = false;
   Interval score;          // Eq. ranking.1; higher is better

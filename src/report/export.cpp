@@ -76,8 +76,11 @@ std::string felt_line(const Verification& v) {
                 "um); ",
                 1e6 * v.pixels.min_hole, 1e6 * v.pixels.min_wall, 1e6 * v.pixels.pixel)
           : std::string();
-  std::string out = edges + fmt::format("{} {:.4g}, of {} {:.4g}: {:.2g} % off\n", v.merit, v.file,
-                                        v.against, v.design, 100 * v.loss);
+  std::string out =
+      edges + (std::isfinite(v.file)
+                   ? fmt::format("{} {:.4g}, of {} {:.4g}: {:.2g} % off\n", v.merit, v.file,
+                                 v.against, v.design, 100 * v.loss)
+                   : fmt::format("{} not known, of {} {:.4g}\n", v.merit, v.against, v.design));
   for (const std::string& note : v.notes) out += note + '\n';
   return out;
 }
@@ -140,8 +143,8 @@ std::string size_line(const Export& result) {
   const Grid& grid = result.heightmap.grid;
   std::string out = fmt::format("size {:.8g} x {:.8g} um", 1e6 * grid.lx, 1e6 * grid.ly);
   if (has_pixels(result))
-    out += fmt::format(", {} x {} pixels of {:.4g} x {:.4g} nm", grid.nx, grid.ny, 1e9 * grid.dx(),
-                       1e9 * grid.dy());
+    out += fmt::format(", {} x {} pixels of {} x {} nm", grid.nx, grid.ny,
+                       significant(1e9 * grid.dx(), 4), significant(1e9 * grid.dy(), 4));
   if (result.cells_x > 0) {
     out += fmt::format(", {} x {} periods of {:.6g} x {:.6g} um", result.cells_x, result.cells_y,
                        1e6 * grid.lx / result.cells_x, 1e6 * grid.ly / result.cells_y);

@@ -292,6 +292,20 @@ std::string film_text(const ResultFiles& f) {
       said("film that stays", films[0].thickness + planes->low));
 }
 
+// A film that holds the field which was solved and not that of a short through a bridge. Where the
+// study has such a limit, that says so.
+std::string at_risk_text(const ResultFiles& f) {
+  const double margin = built_score(f).oxide_margin;
+  if (!f.problem.judged_at_amplitude() || f.problem.goals().film || margin >= 1) return {};
+  return fmt::format(
+      "Its oxide_breakdown_margin is {}: below 1, a bridge or a contact on the thinnest place of "
+      "its film breaks it down. `oxide_breakdown_margin = 1` in [constraints] asks for designs "
+      "that hold.",
+      stated(bare_number("oxide_breakdown_margin of " + scored_name(f), margin, "", kLowest,
+                         {Stage::Confirm, Stage::Rounding}),
+             fmt::format("{:.3g}", margin)));
+}
+
 // "min_wall at least 0.4 um": the limit of that name.
 std::string limit_of_name(const ResultFiles& f, const std::string& name) {
   for (const Constraint& limit : f.study.constraints) {
@@ -423,10 +437,14 @@ std::vector<std::string> grounds(const ResultFiles& f) {
   if (advice == Advice::Texture) {
     if (std::string other = other_rule_text(f); !other.empty()) out.push_back(std::move(other));
   }
-  if (std::string film = film_text(f); !film.empty()) out.push_back(std::move(film));
+  for (std::string said : {film_text(f), at_risk_text(f)}) {
+    if (!said.empty()) out.push_back(std::move(said));
+  }
   out.push_back(conditions_text(f) + skin_text(f));
   out.push_back(model_text(f));
-  for (std::string said : {room_text(f), felt_text(f), look_text(f)}) {
+  // What keeps no limit is not built: limits leave it nothing.
+  const std::string room = advice == Advice::Nothing ? "" : room_text(f);
+  for (std::string said : {room, felt_text(f), look_text(f)}) {
     if (!said.empty()) out.push_back(std::move(said));
   }
   return out;

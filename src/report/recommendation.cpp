@@ -366,9 +366,9 @@ std::string recommendation(const ResultFiles& f) {
           design_name(best_of(f).folder),
           unsure_limits_text(f) + rounding_text(f) + unstable_recommended(f));
     case Advice::LeaveFlat:
-      return leave_flat(f);
+      return leave_flat(f) + unfelt_skin_text(f);
     case Advice::Finish:
-      return change_finish(f);
+      return change_finish(f) + unfelt_skin_text(f);
     case Advice::Texture:
       break;
   }

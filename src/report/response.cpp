@@ -31,7 +31,9 @@ std::string budget_text(const SummaryValue& v, const Response& response) {
   std::string out = fmt::format("sampling {:.1f} %", 100 * v.parts.sampling / size), apart, unknown;
   for (const ErrorOrigin& origin : kErrorOrigins) {
     if (const auto& part = v.parts.*origin.part) {
-      const std::string text = fmt::format("{} {:.2g} %", origin.name, 100 * *part / size);
+      constexpr double kRounding = 1e-12;  // less of a value is that of its arithmetic
+      const double share = *part > kRounding * size ? *part / size : 0;
+      const std::string text = fmt::format("{} {:.2g} %", origin.name, 100 * share);
       if (origin.in_total) {
         out += ", " + text;
       } else {
@@ -232,12 +234,14 @@ std::string field_lines(const Response& response) {
     out +=
         "warning: the dielectric is at risk: it holds the field that was solved, but the electrode "
         "is bare on side walls, where a bridge or a contact would short the drive; voltage_for and "
-        "studies refuse it: cover the walls (surface.step_coverage, a conformal layer)\n";
+        "studies that limit oxide_breakdown_margin refuse it: cover the walls "
+        "(surface.step_coverage, a conformal layer)\n";
   } else if (bridged < 1) {
     out += fmt::format(
         "warning: the dielectric is at risk: it holds the field that was solved, but under a "
         "bridge or a contact on its thinnest place the field is {:.3g} times its strength; at most "
-        "{:.3g} of this amplitude is sure to hold, and voltage_for and studies go no farther\n",
+        "{:.3g} of this amplitude is sure to hold, and voltage_for and studies that limit "
+        "oxide_breakdown_margin go no farther\n",
         1 / bridged, bridged);
   }
   for (const ResponsePoint& p : response.points) {
@@ -356,8 +360,9 @@ std::string belief_table(const Response& response) {
     out += name;
     for (const BeliefColumn& c : kBeliefColumns) {
       if (!response.driven && c.driven) continue;
+      // Of what has no number, that of the members is none either.
       const auto v = value(c);
-      const auto over = members(c);
+      const auto over = v ? members(c) : std::nullopt;
       const auto text = [&](double x) { return fixed(x * c.scale, c.digits); };
       out += fmt::format(
           " {:>12} {:>12} {:>30}", v ? text(v->first) : "-", v ? text(v->second) : "-",
@@ -371,9 +376,9 @@ std::string belief_table(const Response& response) {
   for (std::size_t i = 0; i < response.points.size(); ++i) {
     const ResponsePoint& p = response.points[i];
     row(
-        fmt::format("{:>5.0f}%", 100 * p.relative_humidity),
+        fmt::format("{:>5}%", humidity_text(p, response)),
         [&](const BeliefColumn& c) -> Shown {
-          if (c.driven ? !p.knows_driven() : !p.knows_undriven()) return std::nullopt;
+          if (!is_known(c.metric, p)) return std::nullopt;
           const Measured& m = p.*c.metric.quantity;
           return std::pair(m.value, m.parts.numerical());
         },
@@ -382,6 +387,7 @@ std::string belief_table(const Response& response) {
   row(
       fmt::format("{:>6}", "mean"),
       [&](const BeliefColumn& c) -> Shown {
+        if (!is_known(c.metric, response)) return std::nullopt;
         const auto v = summarise(Summary::Mean, c.metric, response);
         return v ? Shown(std::pair(v->value, v->parts.numerical())) : std::nullopt;
       },

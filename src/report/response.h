@@ -6,6 +6,7 @@
 
 #include "base/rooms.h"
 #include "forward/response.h"
+#include "papilla/quantities.h"
 
 namespace papilla::report {
 
@@ -15,6 +16,10 @@ std::string response_table(const Response& response);
 // What limits trust in it, a line each: choices that no ± holds, the field's limits and its rule,
 // loads beside the pull, what the grid does not resolve ("warning: ...").
 std::vector<std::string> caveats(const Response& response);
+
+// Whether the state exists that a quantity of a point describes: without it there is no number, and
+// the status of the point says why.
+bool exists(api::FingerDrive drive, const ResponsePoint& point, bool driven);
 
 // {"schema": 1, "points": [...], "summary": {...}, "plan": {...}, "seconds", "contact_solves",
 // "fft_pairs"}: fidelity.grid counts pixels along fidelity.window, plan.grid is the patch as run;

@@ -7,6 +7,21 @@
 #include "report/response.h"
 
 namespace papilla::report {
+
+bool exists(api::FingerDrive drive, const ResponsePoint& p, bool driven) {
+  switch (drive) {
+    case api::FingerDrive::Any:
+      return true;
+    case api::FingerDrive::Off:
+      return p.knows_undriven();
+    case api::FingerDrive::On:
+      return driven && p.knows_driven();
+    case api::FingerDrive::OnElseZero:
+      return !driven || p.knows_driven();
+  }
+  return false;
+}
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -40,10 +55,7 @@ Json with_members(Json number, const std::optional<BeliefValues>& over) {
 
 // Null where a humidity has no number for it.
 Json summarised(Summary kind, const Metric& metric, const Response& response) {
-  const bool driven = info_of(metric).needs_drive, contact = metric == Metric{kFriction};
-  for (const ResponsePoint& p : response.points) {
-    if (driven ? !p.knows_driven() : contact && !p.knows_undriven()) return nullptr;
-  }
+  if (!is_known(metric, response)) return nullptr;
   const auto value = summarise(kind, metric, response);
   if (!value) return nullptr;
   return with_members(with_parts(value->value, value->se, value->parts),
@@ -100,21 +112,6 @@ Json voltage_json(const VoltageAnswer& v) {
           {"limit", json_number(v.limit)},
           {"evaluations", v.evaluations},
           {"status", v.reached() ? "ok" : text(v)}};
-}
-
-// Whether the state exists that a quantity describes.
-bool exists(api::FingerDrive drive, const ResponsePoint& p, bool driven) {
-  switch (drive) {
-    case api::FingerDrive::Any:
-      return true;
-    case api::FingerDrive::Off:
-      return p.knows_undriven();
-    case api::FingerDrive::On:
-      return driven && p.knows_driven();
-    case api::FingerDrive::OnElseZero:
-      return !driven || p.knows_driven();
-  }
-  return false;
 }
 
 Json point_json(const Response& response, std::size_t index) {

@@ -28,10 +28,7 @@ std::string sweep_head(const std::string& path, bool appearance) {
 
 std::string sweep_line(const std::string& value, const Response& response) {
   const auto column = [&](Summary summary, const Metric& metric, double scale) {
-    const bool driven = info_of(metric).needs_drive;
-    for (const ResponsePoint& p : response.points) {
-      if (driven ? !p.knows_driven() : !p.knows_undriven()) return std::string("-");
-    }
+    if (!is_known(metric, response)) return std::string("-");
     const auto v = summarise(summary, metric, response);
     return v ? fmt::format("{:.3f} ±{:.3f}", v->value * scale, v->se * scale) : std::string("-");
   };

@@ -167,6 +167,7 @@ StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks) 
       add(goals.limited, wanted(metric->expression, c.at_least));
     goals.looks = goals.looks || std::holds_alternative<LookLimit>(c.on);
     goals.yield = goals.yield || std::holds_alternative<YieldLimit>(c.on);
+    goals.film = goals.film || (std::holds_alternative<FilmLimit>(c.on) && c.limit >= 1);
   }
   if (asks_for_sparkle(study, goals) && !study.design.view.panel.present()) {
     throw InputError(

@@ -40,6 +40,7 @@ struct StudyGoals {
   bool areas = false;  // or about contact areas and what goes with them, of which pixels miss much
   // A limit is on the yield: the others are then asked of the design as drawn.
   bool yield = false;
+  bool film = false;  // a limit is on what the dielectric holds: none that breaks down keeps it
 
   // The objective is made of its quantity at each humidity, not of a summary over them: its aim or
   // its risk takes those.

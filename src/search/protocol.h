@@ -51,7 +51,7 @@ struct TaskStatus {
     Ok,
     ShapeRefused,   // no such shape, or not within its scatter
     LookRefused,    // no theory of its look
-    NoEquilibrium,  // pull-in: no friction to judge
+    NoEquilibrium,  // pull-in, or a dielectric that breaks down: no friction to judge
     NotDefined,     // an objective or a limited metric has no value
     Crashed,
     TimedOut,

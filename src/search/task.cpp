@@ -131,6 +131,21 @@ Fidelity add_model_part(const StudyProblem& problem, const Scene& scene, const D
   return few;
 }
 
+// Under the study's own amplitude; voltage_for stops below breakdown by itself. A limit on the
+// dielectric knows how far beyond it a design is, which leads a search back.
+bool breaks_down(const StudyGoals& goals, const Response& response) {
+  return goals.own_amplitude && !goals.film &&
+         std::any_of(response.points.begin(), response.points.end(),
+                     [](const ResponsePoint& p) { return p.said().trouble == Trouble::Breakdown; });
+}
+
+// voltage_for stops below pull-in by itself, too.
+bool pulled_in(const StudyGoals& goals, const Response& response) {
+  return goals.own_amplitude &&
+         std::any_of(response.points.begin(), response.points.end(),
+                     [](const ResponsePoint& p) { return p.status.pull_in(); });
+}
+
 }  // namespace
 
 Response evaluate_for(const StudyGoals& goals, const Scene& scene, const Texture& texture,
@@ -149,11 +164,8 @@ std::optional<TaskAnswer> complete(Response& response, const StudyGoals& goals, 
     if (response.appearance->refused())
       return TaskAnswer::refused(Kind::LookRefused, response.appearance->warning);
   }
-  // Of the study's own amplitude; voltage_for stops below pull-in by itself.
-  const std::vector<PointTrouble> troubles = response.troubles();
-  if (goals.own_amplitude && std::any_of(troubles.begin(), troubles.end(),
-                                         [](const PointTrouble& t) { return t.status.pull_in(); }))
-    return TaskAnswer::refused(Kind::NoEquilibrium, task + ", " + forward::text(troubles));
+  if (pulled_in(goals, response) || breaks_down(goals, response))
+    return TaskAnswer::refused(Kind::NoEquilibrium, task + ", " + forward::text(response.said()));
   set_bridged_margins(response, scene, d.texture);
   if (goals.pull_in) add_pull_in(response, scene, d.texture, fidelity);
   if (!goals.voltage_targets.empty())
@@ -170,6 +182,10 @@ std::optional<Response> pen_response(const StudyGoals& goals, const Design& desi
 TaskAnswer answer_of(const StudyGoals& goals, const Design& d, const std::string& task,
                      const Responses& responses) {
   const Response& response = responses.own;
+  // The film is the same one under both.
+  if (responses.pen && breaks_down(goals, *responses.pen))
+    return TaskAnswer::refused(TaskStatus::Kind::NoEquilibrium,
+                               task + ", pen, " + forward::text(responses.pen->said()));
   TaskAnswer out;
   for (const StudyObjective& o : goals.objectives) {
     const auto value = defined(o, task, responses.of(o), out);

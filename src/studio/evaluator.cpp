@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <exception>
 
 #include "base/watch.h"
@@ -285,6 +286,7 @@ void Evaluator::find_slopes(const Question& wish) {
     Slope slope{path, step.unit, step.value, step.down, step.up, {}};
     for (const MetricExpression& e : sloping_metrics(at_hand)) {
       const ResponseDifference change = difference_of(e, down, up);
+      if (!std::isfinite(change.value)) continue;  // of a state that does not exist
       slope.changes.push_back({metric_text(e), change.value, change.error});
     }
     out.push_back(std::move(slope));
@@ -369,6 +371,7 @@ std::vector<Comparison> Evaluator::comparisons(const Question& wish, Step step) 
       const auto value = summarise(e.summary, e.metric, *ours);
       if (!value || !summarise(e.summary, e.metric, *theirs)) continue;
       const ResponseDifference more = difference_of(e, *theirs, *ours);
+      if (!std::isfinite(more.value)) continue;  // of a state that does not exist
       Comparison& c = out.emplace_back();
       c.pin = number, c.metric = metric_text(e), c.difference = more.value;
       if (more.paired) c.error = std::hypot(more.error, drift * value->value);

@@ -402,7 +402,12 @@ std::string study_text(const Study& study, const SearchWish& wish) {
     objective.set("risk", *old->find("risk"));
   sections.set("objective", std::move(objective));
   Node limits = table_node();
-  for (const LimitWish& limit : wish.limits) limits.set(limit.name, value_node(limit.limit));
+  for (const LimitWish& limit : wish.limits) {
+    if (limits.find(limit.name))
+      throw InputError(
+          {Problem{"", 0, 0, "constraints." + limit.name, "stands twice: remove one"}});
+    limits.set(limit.name, value_node(limit.limit));
+  }
   sections.set("constraints", std::move(limits));
   Node search = sections.find("search") ? *sections.find("search") : table_node();
   if (wish.evaluations > 0) search.set("evaluations", integer_node(wish.evaluations));

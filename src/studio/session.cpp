@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kSessionFile = "session.json";
 constexpr std::size_t kMostSteps = 200, kMostPins = 8;
-constexpr std::size_t kMostOthers = 20;  // files whose drafts are kept
+constexpr std::size_t kMostOthers = 20;  // files whose drafts are kept, and wishes
 
 Json draft_json(const Draft& draft) {
   Json changes = Json::array();
@@ -58,6 +58,31 @@ Json workspace_json(const Workspace& w) {
 Workspace workspace_from(const Json& json) {
   return {draft_from(json.at("draft")), drafts_from(json.at("past")),
           drafts_from(json.at("future"))};
+}
+
+Json wishes_json(const std::vector<KeptWish>& wishes) {
+  Json out = Json::array();
+  for (const KeptWish& w : wishes)
+    out.push_back({{"file", w.file}, {"kind", w.kind}, {"text", w.text}});
+  return out;
+}
+
+std::vector<KeptWish> wishes_from(const Json& json) {
+  std::vector<KeptWish> out;
+  for (const Json& w : json)
+    out.push_back({w.at("file").get<std::string>(), w.at("kind").get<std::string>(),
+                   w.at("text").get<std::string>()});
+  return out;
+}
+
+// The wish for another kind of the same file: the ranges of measures are of the old kind, and so is
+// a kind that was to be searched alone; what is wanted, kept and judged by is not.
+std::string wish_for(const KeptWish& old, const std::string& kind) {
+  Json wish = Json::parse(old.text, nullptr, false);
+  if (!wish.is_object()) return {};
+  wish.erase("variables");
+  if (wish.value("kinds", Json()) == Json{old.kind}) wish["kinds"] = Json{kind};
+  return wish.dump();
 }
 
 bool is_of_texture(const Change& change) { return change.path.starts_with("texture."); }
@@ -111,8 +136,7 @@ void Session::restore(const std::string& file) {
           {p.at("number").get<int>(), p.at("name").get<std::string>(), draft_from(p.at("draft"))});
       last_pin_ = std::max(last_pin_, pins_.back().number);
     }
-    wish_ = kept.value("wish", "");
-    wish_of_ = kept.value("wish_of", "");
+    wishes_ = wishes_from(kept.value("wishes", Json::array()));
     for (const Json& w : kept.value("others", Json::array())) others_.push_back(workspace_from(w));
     Workspace last = workspace_from(kept);
     // Another that was left under this one's name before it was saved so.
@@ -140,8 +164,7 @@ void Session::keep() const {
        i < others_.size(); ++i)
     others.push_back(workspace_json(others_[i]));
   Json out = workspace_json({draft_, past_, future_});
-  out.update(
-      {{"schema", 1}, {"pins", pins}, {"others", others}, {"wish", wish_}, {"wish_of", wish_of_}});
+  out.update({{"schema", 1}, {"pins", pins}, {"others", others}, {"wishes", wishes_json(wishes_)}});
   kept_.write(kSessionFile, out.dump(1, ' ', false, Json::error_handler_t::replace));
 }
 
@@ -226,8 +249,6 @@ std::uint64_t Session::set_toward(const std::string& path, const std::string& te
 
 std::string Session::kind() const { return texture_name(study_.design.texture); }
 
-std::string Session::file_and_kind() const { return draft_.file + " " + kind(); }
-
 std::uint64_t Session::set_kind(const std::string& kind) {
   const std::lock_guard lock(mutex_);
   const auto& kinds = texture_kinds();
@@ -287,9 +308,9 @@ std::uint64_t Session::save_as(const std::string& file,
   write(draft_, titled_study());
   const Design now = study_of({file, {}}).design;
   for (auto& [draft, design] : standing) draft->changes = changes_between(now, design);
-  const bool own_wish = wish_of_ == file_and_kind();
+  const std::string wish = wish_at_hand();
   adopt({file, {}});
-  if (own_wish) wish_of_ = file_and_kind();
+  if (!wish.empty()) put_wish(wish);
   last_step_ = 0;
   keep();
   return revision_;
@@ -377,24 +398,39 @@ void Session::unpin(int number) {
   keep();
 }
 
+void Session::put_wish(std::string wish) {
+  std::erase_if(wishes_,
+                [&](const KeptWish& w) { return w.file == draft_.file && w.kind == kind(); });
+  wishes_.push_back({draft_.file, kind(), std::move(wish)});
+  if (wishes_.size() > kMostOthers) wishes_.erase(wishes_.begin());
+}
+
 void Session::set_wish(std::string wish) {
   constexpr std::size_t kLongest = 100000;
   if (wish.size() > kLongest) throw InputError("the wish is too long");
   const std::lock_guard lock(mutex_);
-  wish_ = std::move(wish);
-  wish_of_ = file_and_kind();
+  put_wish(std::move(wish));
   keep();
 }
 
 void Session::forget_wish() {
   const std::lock_guard lock(mutex_);
-  wish_.clear();
+  std::erase_if(wishes_, [&](const KeptWish& w) { return w.file == draft_.file; });
   keep();
+}
+
+std::string Session::wish_at_hand() const {
+  const auto of_file = [&](const KeptWish& w) { return w.file == draft_.file; };
+  const auto last = std::find_if(wishes_.rbegin(), wishes_.rend(), of_file);
+  if (last == wishes_.rend()) return {};
+  const auto own = std::find_if(last, wishes_.rend(),
+                                [&](const KeptWish& w) { return of_file(w) && w.kind == kind(); });
+  return own != wishes_.rend() ? own->text : wish_for(*last, kind());
 }
 
 std::string Session::wish() const {
   const std::lock_guard lock(mutex_);
-  return wish_of_ == file_and_kind() ? wish_ : "";
+  return wish_at_hand();
 }
 
 std::uint64_t Session::take(int number) {

@@ -42,6 +42,11 @@ struct PinnedDesign {
   Draft draft;
 };
 
+// What a page wrote into the form of searches, and the file and kind of texture that it is of.
+struct KeptWish {
+  std::string file, kind, text;
+};
+
 // What of the session a reader needs, taken at one moment.
 struct SessionView {
   std::uint64_t revision = 0;  // rises with every change of the design
@@ -90,7 +95,9 @@ class Session {
   void unpin(int number);
   std::uint64_t take(int number);  // the pinned design becomes the one at hand
 
-  // What a page wrote into the form of searches, JSON; kept until it is of another file or kind.
+  // What a page wrote into the form of searches, JSON; kept for each file and kind of texture until
+  // that of the file is forgotten. A kind that nothing was written for has the last wish of its
+  // file, but for what is of the other kind.
   void set_wish(std::string wish);
   void forget_wish();
   std::string wish() const;  // empty: none
@@ -100,7 +107,8 @@ class Session {
   std::uint64_t step_to(std::vector<Draft>& from, std::vector<Draft>& to);
   void adopt(Draft draft);  // reads it
   std::string kind() const;
-  std::string file_and_kind() const;
+  void put_wish(std::string wish);  // with the lock held
+  std::string wish_at_hand() const;
   Study titled_study() const;
   void restore(const std::string& file);
   void keep() const;
@@ -109,7 +117,7 @@ class Session {
   std::vector<Workspace> others_;  // of other files, the one that was left last at the end
   // The texture's changes under each kind that was left, until a texture changes otherwise.
   std::map<std::string, std::vector<Change>> left_kinds_;
-  std::string wish_, wish_of_;  // and the file and kind that it is of
+  std::vector<KeptWish> wishes_;  // the one that was written last at the end
   mutable std::mutex mutex_;
   Draft draft_;
   Study study_;

@@ -44,7 +44,10 @@ std::string opened_file(const std::string& given) {
 }
 
 fs::path own_folder(const StudioOptions& options) {
-  if (!options.folder.empty()) return fs::weakly_canonical(options.folder);
+  if (!options.folder.empty()) {
+    Folder::made(options.folder);
+    return fs::weakly_canonical(options.folder);
+  }
   if (options.file.empty()) return fs::current_path();
   const fs::path path = fs::weakly_canonical(own_or_shipped(options.file)),
                  folder = fs::is_directory(path) ? path : path.parent_path();

@@ -22,7 +22,7 @@ namespace papilla::studio {
 
 struct StudioOptions {
   std::string file;     // a design, a study, or a folder of results; empty: the shipped hole array
-  std::string folder;   // that is read and written; empty: that of the file
+  std::string folder;   // that is read and written, made if it is not there; empty: the file's
   std::string program;  // papilla, for searches
   int port = 0;         // 0: any that is free
   Limits limits;

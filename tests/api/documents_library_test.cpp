@@ -107,6 +107,28 @@ TEST(ResponseOfTheLibrary, IsItsDocumentInNumbers) {
   EXPECT_NE(r.table().find("   30%"), std::string::npos);
 }
 
+// Beyond breakdown the JSON has null, and so has C++ (and with it Python) no number.
+TEST(ResponseOfTheLibrary, HasNoNumbersOfAStateThatDoesNotExist) {
+  const papilla::Design first = papilla::Design::parse(kSmall).with("environment.relative_humidity",
+                                                                    "[\"30 %\"]"),
+                        broken = first.with("drive.amplitude", "5 kV");
+  const papilla::Comparison c = papilla::compare(first, broken);
+  const papilla::Point& p = c.second.points().at(0);
+  const Json point = Json::parse(c.second.json())["points"][0];
+  EXPECT_EQ(p.status.find("breakdown: "), 0u) << p.status;
+  for (const auto& q : papilla::kQuantities<papilla::Quantity>) {
+    EXPECT_EQ(point[q.key].is_null(), std::isnan((p.*q.value).value)) << q.name;
+    EXPECT_EQ(point[q.key].is_null(), std::isnan((p.*q.value).error)) << q.name;
+  }
+  EXPECT_TRUE(std::isnan(p.modulation.value) && std::isfinite(p.friction_off.value));
+  EXPECT_TRUE(std::isnan(c.points[0].modulation.value) && std::isnan(c.mean_modulation.error));
+  EXPECT_EQ(c.points[0].friction_off.value, 0);
+  papilla::SensitivityOptions options;
+  options.keys = {"texture.depth"};
+  EXPECT_TRUE(std::isnan(papilla::sensitivity(broken, "mean(modulation)", options).at(0).slope));
+  EXPECT_TRUE(std::isfinite(papilla::sensitivity(broken, "mean(friction)", options).at(0).slope));
+}
+
 TEST(ResponseOfTheLibrary, HasALevelOrATarget) {
   const papilla::Design design = papilla::Design::parse(kSmall);
   const auto said = [&](const papilla::EvaluateOptions& options) {

@@ -36,6 +36,22 @@ TEST(Designs, AllRead) {
   EXPECT_GE(read, 13);
 }
 
+// Put over the finger of a design, each keeps what is its own: a belief is of a fit.
+TEST(Designs, EveryFingerMayBePutOverThatOfADesign) {
+  const std::string flat = find_design("m3_samples/flat.toml");
+  for (const std::string& file : source_files({"designs/fingers"}, {".toml"})) {
+    if (file.ends_with(".calibration.toml") || file.ends_with("/belief.toml")) continue;
+    const std::string path = std::string(PAPILLA_SOURCE_DIR) + "/" + file;
+    try {
+      const Design design = read_design(flat, {"finger.base=\"" + path + "\""});
+      EXPECT_EQ(design.finger.belief.empty(), read_finger(path).belief.empty()) << file;
+      EXPECT_TRUE(belief_problems(design.finger).empty()) << file;
+    } catch (const InputError& error) {
+      ADD_FAILURE() << file << ": " << error.what();
+    }
+  }
+}
+
 TEST(Reference, PagesAreUpToDate) {
   for (const std::string& section : reference_sections()) {
     const std::string page =

@@ -100,5 +100,30 @@ TEST(Watch, GivesTheExceptionOfAProgressThatAlsoStopsIt) {
   EXPECT_EQ(said, "mine");
 }
 
+TEST(Watch, EndsWorkThatIsNotDoneInTime) {
+  const auto endless = [] {
+    parallel_for(
+        2,
+        [](int) {
+          for (;;) Watch::look();
+        },
+        2);
+  };
+  EXPECT_FALSE(done_within(0.01, endless));
+  const auto counted_apart = [&] {
+    const Watch quiet({}, Watch::stop_of_piece());
+    endless();
+  };
+  EXPECT_FALSE(done_within(0.01, counted_apart));
+  int done = 0;
+  EXPECT_TRUE(done_within(600, [&] {
+    parallel_for(
+        3, [&](int) { ++done; }, 1);
+  }));
+  EXPECT_EQ(done, 3);
+  EXPECT_THROW(done_within(600, [] { throw std::runtime_error("mine"); }), std::runtime_error);
+  EXPECT_EQ(Watch::current(), nullptr);
+}
+
 }  // namespace
 }  // namespace papilla::tests::watch_test

@@ -379,6 +379,17 @@ TEST(Rank, TakesAFileWhoseNameHoldsAPlus) {
   EXPECT_EQ(nlohmann::json::parse(run.out)["candidates"].size(), 2u) << run.out;
 }
 
+// A candidate of several regions is not taken for its first.
+TEST(Rank, NamesACandidateByItsFirstRegionAndHowManyMoreThereAre) {
+  const Workplace place;
+  for (const char* name : {"a", "b"})
+    place.write(std::string(name) + ".toml",
+                "schema_version = 1\n[texture]\ntype = \"hole_array\"\n");
+  const Outcome run = place.run("rank a.toml+b.toml a.toml --by haze --no-parameters");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find(" a and 1 more "), std::string::npos) << run.out;
+}
+
 // As a design that names the scan, a file for each.
 TEST(Rank, PutsScansIntoOneDesign) {
   const Workplace place;

@@ -92,6 +92,15 @@ TEST(Design, ThePublishedSamplesHaveTheirDimensions) {
   }
 }
 
+// Every text of a result is UTF-8, also where it names the folder that the program stands in.
+TEST(Study, OfAFolderThatIsNoUtf8IsCalledByWhatCanBeShown) {
+  const std::filesystem::path folder = temporary("r\xe9s");
+  std::filesystem::create_directory(folder);
+  const std::string file = (folder / "design.toml").string();
+  write_bytes(file, "schema_version = 1\n");
+  EXPECT_EQ(read_study(file).name, "r\\xe9s");
+}
+
 TEST(Study, TheMainStudyHasItsSpaceWishesLimitsAndFingers) {
   const Study study = read_study(kStudy);
   EXPECT_EQ(study.name, "electroadhesive_glass");

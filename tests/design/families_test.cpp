@@ -43,6 +43,22 @@ TEST(Family, AnotherKindKeepsTheMeasures) {
   EXPECT_EQ(of_kind(own, "hole_array"), own);
 }
 
+TEST(Family, AnotherKindHasRoomInThePeriodThatItShares) {
+  Waves waves;
+  waves.period = 2.5e-6;  // holes are 3 um wide by default
+  VGrooves ridges;
+  ridges.width = ridges.period = 7e-6;  // sharp ones
+  for (const Texture& own : {Texture{waves}, Texture{ridges}}) {
+    for (const char* kind : {"hole_array", "pillar_array", "grating", "cap_array"})
+      EXPECT_TRUE(problems(of_kind(own, kind)).empty()) << kind;
+  }
+  const auto holes = std::get<HoleArray>(of_kind(Texture{waves}, "hole_array").kind);
+  EXPECT_EQ(holes.period, 2.5e-6);
+  EXPECT_DOUBLE_EQ(holes.diameter, 1.25e-6);
+  waves.period = 4e-6;  // has room for them
+  EXPECT_EQ(std::get<HoleArray>(of_kind(Texture{waves}, "hole_array").kind).diameter, 3e-6);
+}
+
 TEST(Family, OneVariableActsOnEveryKindThatHasTheMeasure) {
   const Study study = family_study();
   const StudyProblem problem(study);

@@ -124,6 +124,17 @@ TEST(Base, VariablesOfAnotherKindFallAwayWithIt) {
   EXPECT_TRUE(again.fallen_away.empty());
 }
 
+// Of a base the file itself knows the kind: a key that is written wrong is no variable of another.
+TEST(Base, AVariableThatIsWrittenWrongIsRefusedWhereTheBaseHasTheKind) {
+  const std::string text =
+      "base = \"m3_samples/a3h350.toml\"\n[objective]\nminimise = \"mean(friction)\"\n"
+      "[design_space]\n\"texture.dept\" = [\"200 nm\", \"500 nm\"]\n";
+  EXPECT_NE(mistakes(text).find("`texture.dept` is no number of this design, did you mean "
+                                "`texture.depth`?"),
+            std::string::npos)
+      << mistakes(text);
+}
+
 // In one file it is a mistake.
 TEST(Base, AVariableOfAnotherKindBesideTheKindIsRefused) {
   std::string text = kRough;

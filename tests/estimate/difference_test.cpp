@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "estimate/evaluation.h"
@@ -35,6 +36,21 @@ TEST(Difference, IsTheSecondLessTheFirstWithBothErrorsInSquares) {
   EXPECT_DOUBLE_EQ(difference_at(1, kFriction, b, a).value, -7);
   EXPECT_DOUBLE_EQ(difference_of(parse_metric("mean(friction)"), a, b).value, 5.5);
   EXPECT_THROW(difference_of(parse_metric("mean(modulation)"), a, b), InputError);
+}
+
+// Of a film that breaks down there are numbers without the drive, and none under it.
+TEST(Difference, OfAStateThatDoesNotExistIsNoNumber) {
+  Response sound = with_friction(1, 2, 0.03), broken = with_friction(5, 9, 0.04);
+  sound.driven = broken.driven = true;
+  broken.points[1].oxide_margin = 0.5;
+  for (const auto& [a, b] : {std::pair(sound, broken), std::pair(broken, sound)}) {
+    EXPECT_TRUE(std::isfinite(difference_at(0, kModulation, a, b).value));
+    EXPECT_TRUE(std::isnan(difference_at(1, kModulation, a, b).value));
+    const ResponseDifference mean = difference_of(parse_metric("mean(modulation)"), a, b);
+    EXPECT_TRUE(std::isnan(mean.value) && std::isnan(mean.error) && !mean.paired && !mean.model);
+    EXPECT_TRUE(std::isfinite(difference_of(parse_metric("mean(friction)"), a, b).value));
+    EXPECT_TRUE(std::isfinite(difference_of(parse_metric("mean(drive.amplitude)"), a, b).value));
+  }
 }
 
 TEST(Difference, OfTheSameSkinsIsPairedAndOfADesignFromItselfNothing) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "base/constants.h"
 #include "fabricate/export.h"
@@ -12,6 +13,7 @@
 #include "geometry/io/files.h"
 #include "metrics/metrics.h"
 #include "tests/fabricate/exported_folder.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests::verify_test {
@@ -66,6 +68,27 @@ TEST(Verify, SaysWhatIsWrongAndByHowMuch) {
       << faults_of(folder, "texture.gds");
   const std::set<std::string> named = folder.named();
   EXPECT_EQ(named.size(), 3u);
+}
+
+// A record is a text that anybody can write: memory is taken for what its files can hold.
+TEST(Verify, DrawsNoMorePixelsThanTheMapsOfItsRecordHold) {
+  const Workplace place;
+  const Folder folder(place.path() / "f", Texture{HoleArray{}}, Polarity::WhiteDeep);
+  const std::string record = folder.path() + "/export.json";
+  auto json = nlohmann::ordered_json::parse(read_bytes(record));
+  json["made_from"]["pixels"] = 16384;
+  write_bytes(record, json.dump());
+  const std::string refused = refusal_of([&] { verify_folder(folder.path(), ""); });
+  EXPECT_TRUE(refused.starts_with("16384 x 16384 pixels are more than the ")) << refused;
+  // Of a layout nobody knows how many they were.
+  Study study;
+  study.design.texture = Texture{HoleArray{}};
+  ExportOptions options;
+  options.formats = {"gds"};
+  options.pixels = 4098;
+  const std::string layout = (place.path() / "layout").string();
+  export_with_record(study, options, layout);
+  EXPECT_EQ(verify_folder(layout, "").at(0).state, FileState::Sound);
 }
 
 // A row of hexagons off its place is seen in a layout whose polygons are all right.
@@ -361,6 +384,21 @@ TEST(Verify, TheMapOfALatticeIsJudgedOnThePatchOfItsDesign) {
   std::get<HoleArray>(study.design.texture.kind).period = 6e-6;
   write_gsf(file, generate(study.design.texture, {120, 180, 12e-6, 18e-6}), {});
   EXPECT_LT(verify_export(study, file, 0.05).loss, 0.01);
+}
+
+// The files are right, and what they are files of breaks down.
+TEST(Verify, NotesWhatTheModelSaysAgainstTheDesign) {
+  Study study;
+  study.design.environment.relative_humidity = {0.35};
+  study.design.texture = Texture{HoleArray{.period = 6e-6, .diameter = 3e-6, .depth = 300e-9}};
+  study.design.drive.amplitude = 5000;
+  const std::string file = temporary("breaks.gsf");
+  write_gsf(file, generate(study.design.texture, simulated_patch(study.design.texture, 128)), {});
+  const Verification found = verify_export(study, file, 0.05);
+  EXPECT_TRUE(found.faults.empty()) << found.faults.front();
+  ASSERT_EQ(found.notes.size(), 1u);
+  EXPECT_TRUE(found.notes[0].starts_with("of the design itself: 35 % RH: breakdown: "))
+      << found.notes[0];
 }
 
 // Grooves of 2 um in 6 um and of 0.8 um in 3 um: each mask has walls of 2.2 um at least, and 0.1 um

@@ -463,6 +463,9 @@ TEST(Wafer, SaysAtWhichVoltagesAFilmBreaksDown) {
             (std::vector<std::string>{
                 "H1 at 700 V: the dielectric breaks down: the field in a layer is 1.05 times its "
                 "strength, at most 665 V hold; no modulation is expected"}));
+  const WaferPlan kilovolts = plan_of(place, "", "voltage = [\"2 kV\"]\nhumidity = [\"15 %\"]\n");
+  EXPECT_NE(breakdown_lines(kilovolts, {{worse}, {sound}}).front().find("at most 1900 V hold"),
+            std::string::npos);
   // What is solved at two humidities holds, but not what a bridge would put on the film.
   Expected bridged;
   bridged.oxide_margin = 1.1, bridged.bridged_margin = 0.8;

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/constants.h"
+#include "design/design.h"
 #include "fields/price.h"
 #include "forward/electric_path.h"
 #include "forward/forward.h"
@@ -360,6 +362,26 @@ TEST(PlanPieces, WaterOnANearlyWettingSurfaceIsWarnedOf) {
   EXPECT_FALSE(warned(2, WaterModel::Droplets, true));
 }
 
+// The limits that the warning names are what the model answers.
+TEST(PlanPieces, TheLimitsOfANearlyWettingSurfaceAreThoseOfTheModel) {
+  Design design =
+      read_design(std::string(PAPILLA_DESIGNS_DIR) + "/m3_samples/flat.toml",
+                  {"surface.contact_angle=0 deg", "environment.relative_humidity=[\"55 %\"]"});
+  Fidelity fidelity = fidelity_level("search");
+  fidelity.skins = 6;
+  const std::string said = make_plan(scene_of(design), design.texture, fidelity).warnings.at(0);
+  for (const auto& [water, before] : {std::pair{WaterModel::Droplets, "modulation of some "},
+                                      std::pair{WaterModel::Threshold, "by droplets, "}}) {
+    const std::size_t at = said.find(before);
+    ASSERT_NE(at, std::string::npos) << said;
+    design.model.water = water;
+    const double modulation =
+        evaluate(scene_of(design), design.texture, fidelity).points.at(0).modulation.value;
+    EXPECT_NEAR(std::stod(said.substr(at + std::string(before).size())) / modulation, 1, 0.25)
+        << said;
+  }
+}
+
 // Sebum that keeps all water off leaves none to model: as the evaluation of that finger does.
 TEST(PlanPieces, AreThoseOfTheFingerInItsState) {
   Scene natural;
@@ -435,10 +457,10 @@ TEST(PlanPieces, WarningsAreSaidInWhole) {
   EXPECT_NEAR(plan.feature_pixels, smallest / 375e-9, 1e-12);
   ASSERT_EQ(plan.warnings.size(), 1u);
   EXPECT_EQ(plan.warnings[0],
-            fmt::format("the smallest feature of the texture, {:.3g} nm, is {:.2g} pixels wide: "
+            fmt::format("the smallest feature of the texture, 1450 nm, is {:.2g} pixels wide: "
                         "its friction is known as well as its error part `grid` says and not "
                         "better; accuracy.grid = 128 gives it {:.2g}",
-                        1e9 * smallest, smallest / 375e-9, 4 * smallest / 375e-9));
+                        smallest / 375e-9, 4 * smallest / 375e-9));
 }
 
 // Row by row, over water and over patch pressures.

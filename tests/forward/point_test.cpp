@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -280,6 +281,34 @@ TEST(Point, FrictionByACoefficientHasNoFullContact) {
   EXPECT_TRUE(c.point(1000).status.sound());
   c.scene.touch.coefficient = 0;
   EXPECT_EQ(c.point(1000).status.trouble, Trouble::FullContact);
+}
+
+// Closure balance: patches that the open gaps bring into contact count among what touches, of which
+// there is no more than the patch.
+TEST(Point, ByTheLoadLawAreasOfMorePatchesEndAtThePatchToo) {
+  Case c;
+  c.plan.retention = false;
+  c.scene.model.closure = Closure::Balance;
+  c.scene.finger.macro.far_gaps = 1;
+  const ScaleBridge bridge(c.scene, c.fidelity, c.plan.grid, 0.5);
+  const double growth = bridge.growth_on();
+  ASSERT_GT(growth, 2);
+  const double beta = c.fidelity.load_exponent;
+  for (const double open : {0.3, 1.5}) {
+    // The load on a patch in contact, whose own area stays below the patch.
+    const double times = std::pow(open / (0.02 * growth), 1 / beta);
+    for (PatchResult& p : c.patches) {
+      p.capillary_off = p.capillary_on = 0;
+      p.pull = (times * growth - 1) * p.load;
+    }
+    const ResponsePoint p = c.point();
+    EXPECT_EQ(p.status.trouble == Trouble::FullContact, open > 1) << open << ": " << text(p.status);
+    EXPECT_EQ(p.knows_driven(), open < 1) << open;
+    EXPECT_LE(p.area_fraction_on.value, 1);
+    EXPECT_NEAR(p.area_fraction_on.value, std::min(open, 1.0), 0.05 * std::min(open, 1.0)) << open;
+    EXPECT_NEAR(p.modulation.value, p.area_fraction_on.value / p.area_fraction_off.value - 1,
+                1e-9 * p.modulation.value);
+  }
 }
 
 // A smooth pin touches everywhere under its load: attraction brings no more into contact, and the

@@ -49,6 +49,58 @@ TEST(Price, CountsTheControlsAndTheFieldOfADrive) {
   EXPECT_GT(measured_seconds(scene, texture, more), 5 * driven);
 }
 
+// Columns are not corrected by the 3-D field, which is solved all the same, once.
+TEST(Price, OfColumnsHasTheFieldOnce) {
+  Scene scene;
+  scene.drive.amplitude = 100;
+  scene.model.field = FieldMethod::Local;
+  scene.environment.relative_humidity = {0.35, 0.55};
+  const Texture texture{HoleArray{}};
+  Fidelity fidelity = small();
+  fidelity.field_skins = 4;
+  const auto evaluated = [&] { evaluate(scene, texture, fidelity); };
+  work_seconds(evaluated);  // makes what later ones find
+  const double announced = measured_seconds(scene, texture, fidelity),
+               taken = work_seconds(evaluated);
+  EXPECT_LT(taken, 3 * announced);
+  EXPECT_GT(taken, announced / 3);
+}
+
+// Of a law of few skins no more skins are solved than its samples, and no more counted.
+TEST(Price, CountsTheSkinsOfALoadLawThatAreNoMoreThanItsSamples) {
+  Scene scene;
+  scene.drive.amplitude = 100;
+  scene.model.coupling = Coupling::Equilibrium;
+  const Texture texture{HoleArray{}};
+  Fidelity fidelity = small();
+  fidelity.control_skins = fidelity.field_skins = 0;
+  for (const int skins : {1, 2, 24}) {
+    fidelity.skins = skins;
+    fidelity.equilibrium_skins = 6;
+    const auto evaluated = [&] { evaluate(scene, texture, fidelity); };
+    work_seconds(evaluated);
+    const double announced = measured_seconds(scene, texture, fidelity),
+                 taken = work_seconds(evaluated);
+    EXPECT_LT(taken, 3 * announced) << skins;
+    EXPECT_GT(taken, announced / 3) << skins;
+  }
+}
+
+// By the processor's time, within a factor 3 on any machine; `papilla bench --prices` is stricter.
+TEST(Price, OfDrivenAndUndrivenDraftsIsWhatTheyTake) {
+  for (const double amplitude : {0.0, 100.0, 10000.0}) {
+    Scene scene;
+    scene.drive.amplitude = amplitude;
+    const Texture texture{HoleArray{}};
+    const auto evaluated = [&] { evaluate(scene, texture, small()); };
+    work_seconds(evaluated);  // makes what later ones find
+    const double announced = measured_seconds(scene, texture, small()),
+                 taken = work_seconds(evaluated);
+    EXPECT_LT(taken, 3 * announced) << amplitude;
+    EXPECT_GT(taken, announced / 3) << amplitude;
+  }
+}
+
 TEST(Price, LeavesTheAnswersAsTheyAre) {
   Scene scene;
   scene.drive.amplitude = 100;

@@ -176,6 +176,9 @@ TEST(Scan, AFifthWithoutNumbersIsTheMost) {
       EXPECT_NE(why.find("4824 of 24000 pixels (20 %) are no numbers"), std::string::npos) << why;
     }
   }
+  Heightmap none = even_shares();
+  std::fill(none.z.begin(), none.z.end(), kNan);
+  EXPECT_NE(refusal(none, true).find("24000 of 24000 pixels (100 %) are no"), std::string::npos);
 }
 
 TEST(Scan, HeightsOfTenTimesTheWidthAreOfAnotherUnit) {

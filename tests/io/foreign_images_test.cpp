@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -275,6 +276,20 @@ TEST(ForeignImages, TheChannelOfHeightsIsTakenByItsName) {
 
 // Whole numbers say nothing of heights by themselves; by their description they do, black and white
 // at their own heights, whichever is higher.
+// Eight of its pixels are a byte before it is packed.
+TEST(ForeignImages, ABlackMaskOfOneBitIsNotTakenForOneThatIsCutOff) {
+  constexpr int kWide = 4096, kHigh = 2048;
+  OIIO::ImageSpec spec(kWide, kHigh, 1, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:BitsPerSample", 1);
+  spec.attribute("compression", "zip");
+  spec.attribute("tiff:RowsPerStrip", kHigh);
+  const std::string path = temporary("black.tif");
+  write(path, spec, std::vector<std::uint8_t>(std::size_t{kWide} * kHigh));
+  ASSERT_LT(std::filesystem::file_size(path), std::size_t{kWide} * kHigh / 2000);
+  EXPECT_NE(refusal_of([&] { read_heightmap(path, 1e-6); }).find("without its height scale"),
+            std::string::npos);
+}
+
 TEST(ForeignImages, GreyHasTheHeightsOfItsDescription) {
   std::vector<std::uint16_t> grey;
   for (int i = 0; i < kNx * kNy; ++i) grey.push_back(static_cast<std::uint16_t>(35 * i));

@@ -1,10 +1,12 @@
 #include "metrics/metrics.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "base/constants.h"
 #include "base/error.h"
@@ -59,6 +61,25 @@ TEST(Metrics, AnUndrivenDesignHasNoModulation) {
   EXPECT_EQ(why_undefined(kFriction, r), "");
   r.driven = true;
   EXPECT_EQ(why_undefined(kModulation, r), "");
+}
+
+TEST(Metrics, AreKnownWhereTheirStateExists) {
+  const auto known = [](const ResponsePoint& point) {
+    std::vector<std::string> out;
+    for (const char* name : {"friction", "contact_area", "modulation", "friction_on", "mean_gap",
+                             "felt(modulation = 0.2)", "drive.amplitude", "pull_in_margin"})
+      if (is_known(parse_metric(fmt::format("mean({})", name)).metric, point)) out.push_back(name);
+    return out;
+  };
+  const std::vector<std::string> of_no_state{"mean_gap", "drive.amplitude", "pull_in_margin"};
+  ResponsePoint p;
+  EXPECT_EQ(known(p).size(), 8u);
+  p.oxide_margin = 0.5;
+  std::vector<std::string> undriven{"friction", "contact_area"};
+  undriven.insert(undriven.end(), of_no_state.begin(), of_no_state.end());
+  EXPECT_EQ(known(p), undriven);
+  p.area_fraction_off.value = 1.5;
+  EXPECT_EQ(known(p), of_no_state);
 }
 
 TEST(Metrics, VariationOfAZeroMeanIsUndefined) {

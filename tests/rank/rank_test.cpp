@@ -107,15 +107,32 @@ TEST(Rank, FingersOfUnknownOrOtherUncertaintyAreRefused) {
   EXPECT_THROW(ranking_of(designs, options), InputError);
 }
 
+// How many notes of a ranking have these words.
+std::ptrdiff_t notes_with(const std::string& words, const std::vector<Design>& designs,
+                          const RankOptions& options) {
+  const std::vector<std::string> notes = ranking_of(designs, options).notes;
+  return std::count_if(notes.begin(), notes.end(), [&](const std::string& note) {
+    return note.find(words) != std::string::npos;
+  });
+}
+
 TEST(Rank, ASurfaceThatSaysItsShearStrengthOfTheStateDoesNotRubAsGlassDoes) {
   std::vector<Design> designs{sample("flat"), sample("a3h350")};
   for (Design& d : designs) d.surface.shear_strength_natural = 5e6;
   RankOptions options = by("friction:low");
   options.max_skins = 4;
+  EXPECT_EQ(notes_with("shear_strength", designs, options), 1);
   options.states = {FingerState::Natural};
-  EXPECT_TRUE(ranking_of(designs, options).notes.empty());
-  options.states = {FingerState::Clean};
-  EXPECT_EQ(ranking_of(designs, options).notes.size(), 1u);
+  EXPECT_EQ(notes_with("shear_strength", designs, options), 0);
+}
+
+TEST(Rank, NotesWhatTheModelSaysAgainstItsNumbers) {
+  std::vector<Design> designs{small_sample("flat"), small_sample("a3h350")};
+  RankOptions options = by("modulation:high");
+  options.max_skins = 4;
+  EXPECT_EQ(notes_with("35 % RH", designs, options), 0);
+  for (Design& d : designs) d.drive.amplitude = 5000;
+  EXPECT_EQ(notes_with(", finger clean: 35 % RH: breakdown: ", designs, options), 2);
 }
 
 // Of a map that is larger than the patch several places are pressed; one that is asked for, and a

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -75,6 +76,10 @@ TEST(ExportReport, AVerdictIsALineAFileAndALineAFault) {
   EXPECT_EQ(fault_lines(v),
             (std::vector<std::string>{"out/mask.tif: too wide", "out/mask.tif: too deep",
                                       "out/a.png: is not there", "out/b.png: no PNG", "is felt"}));
+  v.felt->file = v.felt->loss = std::nan("");
+  EXPECT_TRUE(verdict_text(v).ends_with("mean(modulation) not known, of the design 0.25\n"))
+      << verdict_text(v);
+  v.felt->file = v.felt->loss = 0.2;
   v.felt->against = "the design with the process undone";
   EXPECT_NE(verdict_text(v).find("0.2, of the design with the process undone 0.25: 20 % off"),
             std::string::npos)

@@ -1,5 +1,6 @@
 // The lines below the table of a response, and the parts of its document that are there on request:
 // each as a whole, of made-up numbers.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -51,6 +52,14 @@ TEST(ResponseLines, WithoutADriveThereIsFrictionAlone) {
   EXPECT_EQ(modulation_sparkline(r), "");
   r.points[0].friction_off.value = 0;  // no size to compare an error to
   EXPECT_EQ(below(r), "undriven (0 V): no modulation\nmean friction 0.0 ±10.0 mN; error: \n");
+}
+
+TEST(ResponseLines, CountNoErrorOfArithmetic) {
+  Response r;
+  r.points = {point(0.15, 0.1)};
+  r.points[0].friction_off.parts.grid = 1e-4, r.points[0].friction_off.parts.solver = 2e-20;
+  EXPECT_NE(below(r).find("error: sampling 10.0 %, grid 0.1 %, solver 0 %;"), std::string::npos)
+      << below(r);
 }
 
 // Of a load of a millinewton digits follow the error; of what is zero there are no more.
@@ -123,13 +132,15 @@ TEST(ResponseLines, OfTheFieldSayTheWorstOfAllHumidities) {
                         "warning: the dielectric is at risk: it holds the field that was solved, "
                         "but under a bridge or a contact on its thinnest place the field is "
                         "1.25 times its strength; at most 0.8 of this amplitude is sure to hold, "
-                        "and voltage_for and studies go no farther\n"
+                        "and voltage_for and studies that limit oxide_breakdown_margin go no "
+                        "farther\n"
                         "pull: field rule times 0.80 to 1.20, by the 3-D field; good to 7 %\n");
   a.bridged_margin = 0;
   EXPECT_EQ(last(), air +
                         "warning: the dielectric is at risk: it holds the field that was solved, "
                         "but the electrode is bare on side walls, where a bridge or a contact "
-                        "would short the drive; voltage_for and studies refuse it: cover the walls "
+                        "would short the drive; voltage_for and studies that limit "
+                        "oxide_breakdown_margin refuse it: cover the walls "
                         "(surface.step_coverage, a conformal layer)\n"
                         "pull: field rule times 0.80 to 1.20, by the 3-D field; good to 7 %\n");
   a.oxide_margin = 0.5;
@@ -149,6 +160,33 @@ TEST(ResponseLines, OfTheFieldSayTheWorstOfAllHumidities) {
     EXPECT_EQ(last(), air);
     (b.*area).value = 0;
   }
+}
+
+// What breaks down at one humidity has no mean over them, nor a band of the members.
+TEST(ResponseLines, OfBeliefHaveNoMeanOfWhatBreaksDown) {
+  Response r;
+  r.driven = true;
+  r.points = {point(0.352, 0.1), point(0.354, 0.1)};
+  r.belief.own = {r.points, {r.points, r.points}};
+  r.belief.members = {{0.5, "", r.belief.own}, {0.5, "", r.belief.own}};
+  const auto row = [&](const std::string& name) {
+    const std::string table = response_table(r);
+    const auto begin = table.find("\n" + name, table.find("median [95 %]")) + 1;
+    return table.substr(begin, table.find('\n', begin) - begin);
+  };
+  const auto cells = [](const char* value, const char* numerical, const char* model) {
+    return fmt::format(" {:>12} {:>12} {:>30}", value, numerical, model);
+  };
+  const std::string off = cells("100.0", "10.0", "0.0; 100.0 [100.0, 100.0]"),
+                    on = cells("200.0", "20.0", "0.0; 200.0 [200.0, 200.0]"),
+                    more = cells("1.000", "0.050", "0.000; 1.000 [1.000, 1.000]"),
+                    none = cells("-", "-", "-");
+  EXPECT_EQ(row(" 35.2%"), " 35.2%" + off + on + more);  // two that per cents do not tell apart
+  EXPECT_EQ(row("  mean").find('-'), std::string::npos) << row("  mean");
+  r.points[0].oxide_margin = 0.5;
+  EXPECT_EQ(row(" 35.2%"), " 35.2%" + off + none + none);
+  EXPECT_EQ(row(" 35.4%"), " 35.4%" + off + on + more);
+  EXPECT_TRUE(row("  mean").ends_with("100.0 [100.0, 100.0]" + none + none)) << row("  mean");
 }
 
 // One list for the table and for the studio's page: with its lines the table ends, before notes.

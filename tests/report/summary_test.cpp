@@ -763,6 +763,50 @@ TEST(BuildSheet, OfAFlatSurfaceHasTheChecksOfTheFinalistThatItIs) {
   EXPECT_EQ(as_read(run_json(run.files()))["stable"], false);
 }
 
+// A flat surface is worth no more than a texture where nobody feels it.
+TEST(BuildSheet, SaysOfAFlatSurfaceTooThatNobodyFeelsItOnNaturalSkin) {
+  Searched run;
+  run.result.flat = score(0.49, 0.29, 0.2);
+  FinalDesign& flat = run.result.finalists[1];
+  flat.unit = *run.problem.space().flattened(run.result.finalists[0].unit);
+  flat.design = run.problem.space().design(flat.unit);
+  Stability& s = run.result.stability;
+  s.variants[1].values[1] = {0.45, 0.28};
+  s.variants[0].worst = {0.3, 0.3}, s.variants[1].worst = {0.3, 0.05};
+  s.other_skin = 1;
+  const std::string lead = as_read(recommendation(run.files()));
+  EXPECT_TRUE(lead.starts_with("Leave it flat")) << lead;
+  EXPECT_NE(lead.find("its worst modulation is 0.050, which people do not notice, design 01 has "
+                      "0.300 there."),
+            std::string::npos)
+      << lead;
+}
+
+// Without a limit on the film a design may hold by the field that was solved and not under a
+// bridge.
+TEST(BuildSheet, SaysThatAFilmIsAtRisk) {
+  Study study = holes();
+  study.constraints.clear();
+  Searched run(study);
+  run.result.finalists[0].confirmed.oxide_margin = 1;
+  const auto said = [&] { return as_read(join_names(grounds(run.files()), "\n")); };
+  EXPECT_EQ(said().find("oxide_breakdown_margin"), std::string::npos) << said();
+  run.result.finalists[0].confirmed.oxide_margin = 0.75;
+  EXPECT_NE(said().find("\nIts oxide_breakdown_margin is 0.75: below 1, a bridge or a contact on "
+                        "the thinnest place of its film breaks it down. `oxide_breakdown_margin = "
+                        "1` in [constraints] asks for designs that hold."),
+            std::string::npos)
+      << said();
+}
+
+TEST(BuildSheet, OfADesignThatBreaksItsLimitsSaysNothingOfWhatTheyLeave) {
+  Searched run;
+  const auto said = [&] { return as_read(join_names(grounds(run.files()), "\n")); };
+  EXPECT_NE(said().find("The limits leave"), std::string::npos) << said();
+  run.result.finalists[0].feasible = run.result.any_feasible = false;
+  EXPECT_EQ(said().find("The limits leave"), std::string::npos) << said();
+}
+
 TEST(BuildSheet, TheStateThatWasNotTriedIsNotTheOneThatWas) {
   Study study = holes();
   study.design.finger.state = FingerState::Natural;

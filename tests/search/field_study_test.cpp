@@ -318,6 +318,29 @@ TEST(FieldStudy, AVoltagePastPullInIsARefusalWithItsReason) {
   EXPECT_NE(task.status.text.find("35 % RH: "), std::string::npos) << task.status.text;
 }
 
+// A limit on the dielectric says how far beyond it a design is; without one it has no number.
+TEST(FieldStudy, AVoltagePastBreakdownIsARefusalWhereNoLimitSaysSo) {
+  const auto answer = [](const std::string& constraints) {
+    Study study = without_belief(read_study(
+        study_file("breakdown",
+                   "[drive]\namplitude = \"1500 V\"\n[design_space]\n\"texture.depth\" = [\"0 "
+                   "nm\", \"500 nm\"]\n[objective]\nmaximise = \"mean(modulation)\"\n" +
+                       constraints)));
+    study.design.model.coupling = Coupling::OnePass;
+    return evaluate_task(StudyProblem(study), study.design, 0, {small()});
+  };
+  const TaskAnswer refused = answer("");
+  EXPECT_EQ(refused.status.kind, TaskStatus::Kind::NoEquilibrium);
+  EXPECT_NE(refused.status.text.find("35 % RH: breakdown: "), std::string::npos)
+      << refused.status.text;
+  // A limit that a broken film would keep leads nowhere.
+  EXPECT_EQ(answer("[constraints]\noxide_breakdown_margin = 0.01\n").status.kind,
+            TaskStatus::Kind::NoEquilibrium);
+  const TaskAnswer limited = answer("[constraints]\noxide_breakdown_margin = 1.5\n");
+  ASSERT_TRUE(limited.status.ok()) << limited.status.text;
+  EXPECT_LT(limited.oxide_margin, 1);
+}
+
 TEST(FieldStudy, AConstraintOnAnUnknownMetricIsAMistakeAtItsPlace) {
   try {
     read_study(study_file("wrong",

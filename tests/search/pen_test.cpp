@@ -55,6 +55,12 @@ TEST(PenStudy, ThePenHasNumbersOfItsOwn) {
   EXPECT_EQ(answer.objectives[1].value, summarise(Summary::Mean, kFriction, alone)->value);
   EXPECT_EQ(answer.limited.at(0), summarise(Summary::Worst, kFriction, alone)->value);
   EXPECT_NE(answer.objectives[1].value, summarise(Summary::Mean, kFriction, finger)->value);
+  // A film that the pen breaks down is broken under the finger, too.
+  Response broken = alone;
+  broken.points.back().oxide_margin = 0.5;
+  const TaskAnswer refused = answer_of(problem.goals(), study.design, "nominal", {finger, broken});
+  EXPECT_EQ(refused.status.kind, TaskStatus::Kind::NoEquilibrium);
+  EXPECT_TRUE(refused.status.text.starts_with("nominal, pen, ")) << refused.status.text;
 }
 
 // A limit on the pen is none on the finger.

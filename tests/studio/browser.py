@@ -249,6 +249,24 @@ def smoke(browser, folder):
         # A mistake of the wish is said below it.
         browser.run("document.querySelectorAll('#variables [type=checkbox]').forEach(b => { if (b.checked) b.click(); }); document.getElementById('start').click()")
         until(browser, "/needs a variable/.test(document.getElementById('wishnotice').textContent)", 10, "the mistake at the form")
+        browser.run("document.getElementById('proposed').click()")
+        until(browser, "document.getElementById('wishnotice').hidden", 10, "the file's wish in place of a mistaken one")
+        # It is seen, its line is marked, and both end with the mistake.
+        browser.run("""
+            const [low, high, without] = document.querySelectorAll('#variables [data-path="texture.depth"] [type=text]');
+            without.value = '0 nm to 1 mm';
+            window.scrollTo(0, 0);
+            document.getElementById('start').click();""")
+        until(browser, "/depth/.test(document.getElementById('wishnotice').textContent)", 10, "the mistake of a range")
+        seen = "(b => b.top >= 0 && b.bottom <= innerHeight)(document.getElementById('wishnotice').getBoundingClientRect())"
+        until(browser, seen, 10, "the mistake where it is seen")
+        marked = browser.run("return [...document.querySelectorAll('#wish .wrong:not([role])')].map(line => line.dataset.path)")
+        check(marked == ["texture.depth"], f"lines that are marked: {marked}")
+        browser.run("""
+            const [low, high, without] = document.querySelectorAll('#variables [data-path="texture.depth"] [type=text]');
+            without.value = '';
+            without.dispatchEvent(new Event('input', { bubbles: true }));""")
+        check(browser.run("return document.getElementById('wishnotice').hidden && !document.querySelector('#wish .wrong:not([role])')"), "a mistake stays after it was mended")
         browser.run("document.getElementById('inside').open = true")
         until(browser, "document.querySelectorAll('#maps canvas').length >= 4", 60, "maps of the contact")
         # A humidity that is chosen while a patch is worked out is drawn after it.
@@ -290,6 +308,9 @@ def searched(browser):
         browser.run(f"parts.showSearch({{...search, state: 'running', folder: 'searches/002', confirmed: [], recommended: null, progress: {{share: {share}, seconds_left: 9}}}})")
         shares.append(browser.run(bar))
     check(shares == ["48", "48", "60"], f"the bar of a search: {shares}")
+    # Feel is of the finger at hand, a front of all fingers of its search: said where they are several.
+    felt = browser.run("return [['reference'], ['reference', 'moist']].map((fingers) => { parts.showSearch({...search, fingers}); return document.getElementById('felt').textContent; })")
+    check(felt == ["", "Of the finger at hand; the search below judges by reference, moist."], f"whose fingers: {felt}")
     # A stop that is refused as no design was judged yet: said until one was.
     browser.run("""
         window.sent = window.fetch;
@@ -323,8 +344,8 @@ def modules(browser, folder):
         title = browser.run("return parts.titled('Plate 3.14159265 of 2.50000 um; texture.depth 345.6789 nm; texture.period 6.5 um')")
         check(title == "Plate 3.14159265 of 2.50000 um; texture.depth 345.68 nm; texture.period 6.5 µm", f"a title: {title}")
         # What evaluate says of the numbers stands below them, and warnings are seen.
-        said = browser.run("parts.showCaveats(['air beyond its breakdown field on up to 30 %', 'warning: the smallest feature is 0.3 pixels wide']); return [...document.querySelectorAll('#caveats li')].map(li => [li.textContent, li.className]).concat([document.getElementById('caveats').hidden])")
-        check(said == [["air beyond its breakdown field on up to 30 %", ""], ["warning: the smallest feature is 0.3 pixels wide", "over"], False], f"caveats: {said}")
+        said = browser.run("parts.showCaveats(['air beyond its breakdown field on up to 30 %; 270 V/um', 'warning: the smallest feature is 0.3 pixels wide']); return [...document.querySelectorAll('#caveats li')].map(li => [li.textContent, li.className]).concat([document.getElementById('caveats').hidden])")
+        check(said == [["air beyond its breakdown field on up to 30 %; 270 V/µm", ""], ["warning: the smallest feature is 0.3 pixels wide", "over"], False], f"caveats: {said}")
         # A difference is told apart by both parts of its error; without the part of the model nothing is judged.
         words = browser.run("""
             const told = (difference, error, model, own) => { const s = parts.sentence({metric: 'mean(modulation)', difference, error, model}, {mean_modulation: {value: 0.5, model: own}}); return s && [s.textContent, s.className]; };

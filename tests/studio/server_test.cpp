@@ -170,12 +170,16 @@ TEST_F(Server, LeavesNothingOfAFileThatItCannotOpen) {
   const TemporaryFolder other;
   write_bytes(other.path() / "wrong.toml", "schema_version = 1\ntexture = 3\n");
   for (const char* file : {"none.toml", "wrong.toml"}) {
-    const int code = std::system(("timeout 20 '" PAPILLA_PROGRAM "' studio --no-open '" +
-                                  (other.path() / file).string() + "' > /dev/null 2>&1")
-                                     .c_str());
-    EXPECT_EQ(WEXITSTATUS(code), 2) << file;
+    for (const std::string& folder : {std::string(), (other.path() / "new").string()}) {
+      const int code = std::system(
+          ("timeout 20 '" PAPILLA_PROGRAM "' studio --no-open '" + (other.path() / file).string() +
+           "' " + (folder.empty() ? "" : "--folder '" + folder + "'") + " > /dev/null 2>&1")
+              .c_str());
+      EXPECT_EQ(WEXITSTATUS(code), 2) << file;
+    }
   }
   EXPECT_FALSE(std::filesystem::exists(other.path() / ".studio"));
+  EXPECT_FALSE(std::filesystem::exists(other.path() / "new"));
 }
 
 // A link in the folder leads nowhere, and a name that is no UTF-8 does not end the page.

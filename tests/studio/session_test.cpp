@@ -258,8 +258,7 @@ TEST(Session, KeepsTwoHundredStepsTheNewest) {
                             {"future", nlohmann::json::array()},
                             {"pins", nlohmann::json::array()},
                             {"others", nlohmann::json::array()},
-                            {"wish", ""},
-                            {"wish_of", ""}}));
+                            {"wishes", nlohmann::json::array()}}));
   const auto step = [](int nm) {
     const nlohmann::json change = {"texture.depth", std::to_string(nm) + " nm"};
     return nlohmann::json{{"file", kHoles}, {"changes", nlohmann::json::array({change})}};
@@ -384,13 +383,37 @@ TEST(Session, KeepsTheWishOfItsFileAndKind) {
   }
   Session again(place.path(), kHoles);
   EXPECT_EQ(again.wish(), R"({"evaluations":37})");
+  EXPECT_THROW(again.set_wish(std::string(200000, ' ')), InputError);
   again.set_kind("waves");
+  again.set_wish(R"({"evaluations":11})");
+  again.become({PAPILLA_DESIGNS_DIR "/m3_samples/flat.toml", {}});
   EXPECT_EQ(again.wish(), "");
+  again.set_wish(R"({"evaluations":5})");
+  again.undo();
+  EXPECT_EQ(again.wish(), R"({"evaluations":11})");
   again.set_kind("hole_array");
   EXPECT_EQ(again.wish(), R"({"evaluations":37})");
-  EXPECT_THROW(again.set_wish(std::string(200000, ' ')), InputError);
   again.forget_wish();
   EXPECT_EQ(again.wish(), "");
+  again.become({PAPILLA_DESIGNS_DIR "/m3_samples/flat.toml", {}});
+  EXPECT_EQ(again.wish(), R"({"evaluations":5})");
+}
+
+// So a design of another kind, picked from the front, is steered within the same limits.
+TEST(Session, TakesWhatIsWantedAlongToAnotherKind) {
+  const TemporaryFolder place;
+  Session session(place.path(), kHoles);
+  session.set_wish(
+      R"({"kinds":["hole_array","waves"],"limits":[{"name":"min_wall","limit":"1.7 um"}],"variables":[]})");
+  session.set_kind("waves");
+  EXPECT_EQ(session.wish(),
+            R"({"kinds":["hole_array","waves"],"limits":[{"name":"min_wall","limit":"1.7 um"}]})");
+  session.set_wish(R"({"kinds":["waves"]})");
+  session.set_kind("grating");
+  EXPECT_EQ(session.wish(), R"({"kinds":["grating"]})");
+  session.set_wish("damaged");
+  session.set_kind("cap_array");
+  EXPECT_EQ(session.wish(), "");
 }
 
 TEST(Session, TakesItsWishAlongWhereItIsSaved) {

@@ -157,6 +157,11 @@ TEST(SearchWish, RefusesWhatIsNoSearch) {
   SearchWish pinned = depth_wish();
   pinned.variables = {{"texture.period", "6 um", "6000 nm"}};
   EXPECT_THROW(study_text(study, pinned), InputError);
+  SearchWish twice = depth_wish();
+  twice.limits.push_back({"min_hole", "2 um"});
+  EXPECT_NE(
+      refusal_of([&] { study_text(study, twice); }).find("min_hole: stands twice: remove one"),
+      std::string::npos);
   EXPECT_THROW(search_wish(Json{{"maximise", {"x"}}}), InputError);
 }
 

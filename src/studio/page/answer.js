@@ -4,6 +4,7 @@ import { charts, draw } from '../plots/charts.js';
 import { curve, overHumidity } from '../plots/curves.js';
 import { fixed, level, round } from '../plots/numbers.js';
 import { refreshTable, table } from '../plots/tables.js';
+import { people } from './form.js';
 import { ask } from './server.js';
 
 const state = { session: null, answer: null, unanswered: '' };
@@ -100,7 +101,7 @@ export function showCaveats(lines) {
   if (list.dataset.lines === now) return;
   list.dataset.lines = now;
   list.hidden = !lines.length;
-  list.replaceChildren(...lines.map((line) => Object.assign(document.createElement('li'), { textContent: line, className: line.startsWith('warning:') ? 'over' : '' })));
+  list.replaceChildren(...lines.map((line) => Object.assign(document.createElement('li'), { textContent: people(line), className: line.startsWith('warning:') ? 'over' : '' })));
 }
 
 // The curves for those who hear the page, or copy numbers.

@@ -166,7 +166,7 @@ function build(k) {
 // Beside the value of a row: where it comes from.
 function tell(row, k) {
   row.box.classList.toggle('changed', k.changed);
-  row.about.textContent = `${k.doc}. ${k.type === 'number' || k.type === 'integer' ? `${round(k.low, 4)} to ${round(k.high, 4)} ${people(k.unit)}. ` : ''}${k.place}`;
+  row.about.textContent = `${people(k.doc)}. ${k.type === 'number' || k.type === 'integer' ? `${round(k.low, 4)} to ${round(k.high, 4)} ${people(k.unit)}. ` : ''}${k.place}`;
   if (k.changed) {
     const back = element('button', '', 'as the file has it');
     back.type = 'button';

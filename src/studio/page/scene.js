@@ -123,7 +123,7 @@ export function showLook(look) {
     ['distinctness of image', share(look.distinctness)],
     look.sparkle ? ['sparkle', share(look.sparkle)] : null,
     look.colour_shift === null ? null : ['colour shift', round(level(look.colour_shift, 1), 2)],
-    look.warning ? ['', look.warning, true] : null,
+    look.warning ? ['', people(look.warning), true] : null,
   ]);
 }
 // What has to be made of the shape; of a stack each part alone.

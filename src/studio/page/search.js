@@ -55,11 +55,19 @@ function boxes(id, names, chosen) {
   }));
 }
 const checked = (id) => [...$(id).querySelectorAll('input:checked')].map((box) => box.value);
-// What the server says of the wish stands below it. refused: where the search stood that it is said of; that is taken back once the search has moved on.
-function said(text, refused = '') {
+// The lines of the form that a key of the study is written in: "design_space.texture.depth.exclude", "constraints.min_wall".
+function linesOf(key) {
+  const names = (name) => name && `.${key}.`.includes(`.${name}.`);
+  return [...$('variables').tBodies[0].rows].filter((r) => names(r.dataset.path)).concat([...document.querySelectorAll('.limit')].filter((l) => names(l.querySelector('select').value)));
+}
+// What the server says of the wish stands below it, where it is seen, until the wish is another; the lines that it is said of are marked. refused: where the search stood that it is said of; that is taken back once the search has moved on.
+function said(text, { refused = '', keys = [] } = {}) {
   state.refused = refused;
   $('wishnotice').textContent = text;
   $('wishnotice').hidden = !text;
+  $('wish').querySelectorAll('.wrong:not([role])').forEach((line) => line.classList.remove('wrong'));
+  keys.flatMap(linesOf).forEach((line) => line.classList.add('wrong'));
+  if (text) $('wishnotice').scrollIntoView({ block: 'nearest' });
 }
 function adder(text, line) {
   const button = make('button', { type: 'button', className: 'add', textContent: text });
@@ -144,7 +152,7 @@ function keep() {
   keeping = setTimeout(() => post('search/wish', formNow()).catch((error) => said(error.message)), 300);
 }
 export function startSearch() {
-  ['input', 'change', 'click'].forEach((what) => $('wish').addEventListener(what, (e) => { if (what !== 'click' || e.target.matches('.add, .wishline button')) keep(); }));
+  ['input', 'change', 'click'].forEach((what) => $('wish').addEventListener(what, (e) => { if (what === 'click' && !e.target.matches('.add, .wishline button')) return; said(''); keep(); }));
   $('proposed').addEventListener('click', async () => { clearTimeout(keeping); const wish = await ask('search/forget'); if (wish) showWish(wish); });
   $('wish').addEventListener('submit', (e) => { e.preventDefault(); run('search/start', wishNow()); });
   $('steer').addEventListener('click', () => run('search/start', Object.assign(wishNow(), { steer: true })));
@@ -160,7 +168,8 @@ async function run(path, body) {
     showSearch(await post(path, body));
     said('');
   } catch (error) {
-    said((error.problems || []).map((p) => (p.key ? `${called(p.key) || p.key}: ` : '') + people(p.message)).join('; ') || error.message, body ? '' : standing(state.search));
+    const problems = error.problems || [];
+    said(problems.map((p) => (p.key ? `${called(p.key) || p.key}: ` : '') + people(p.message)).join('; ') || error.message, { refused: body ? '' : standing(state.search), keys: problems.map((p) => p.key) });
   }
 }
 const open = (point) => ask('search/pick', point.front ? { front: point.front } : { evaluation: point.evaluation });
