@@ -46,7 +46,7 @@ def attribute_docs(cls: type) -> dict[str, str]:
     """The text below each annotated member."""
     lines = inspect.getsource(cls)
     found = re.findall(r'^    (\w+): [^\n]+\n    """(.*?)"""', lines, re.M | re.S)
-    found += re.findall(r'^        self\.(\w+): [^\n]+\n        """(.*?)"""', lines, re.M | re.S)
+    found += re.findall(r'^ +self\.(\w+): [^\n]+\n +"""(.*?)"""', lines, re.M | re.S)
     return {name: " ".join(text.split()) for name, text in found}
 
 

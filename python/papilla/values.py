@@ -188,7 +188,11 @@ def write_file(name: str, data: bytes | memoryview) -> None:
     """Whole or not at all, with the mode of the file that it replaces; a link of the name is replaced, not followed."""
     folder, base = os.path.split(name)
     part = os.path.join(folder, f".{base[:40]}.{secrets.token_hex(8)}.part")  # a name that nobody can put a link at
-    handle = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
+    try:
+        handle = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
+    except OSError as error:
+        error.filename = name  # as its caller knows it
+        raise
     try:
         with open(handle, "wb") as stream:
             stream.write(data)

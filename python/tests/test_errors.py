@@ -211,6 +211,10 @@ def test_saving_follows_no_link_of_a_stranger(tmp_path: pathlib.Path) -> None:
     pp.Design(HOLES).save(folder / "d.toml")
     assert (folder / "d.toml").stat().st_mode & 0o777 == 0o600
     assert not [file for file in folder.iterdir() if file.name.startswith(".")]  # nothing half written
+    long = folder / ("long" * 63 + "rest.toml")  # too long a name, whoever saves
+    with pytest.raises(OSError):
+        pp.Design(HOLES).save(long)
+    assert not [file for file in folder.iterdir() if file.name.startswith(".")]
 
 
 @pytest.mark.parametrize("name", ["fit.json", "fit.md", "finger.toml"])

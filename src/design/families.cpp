@@ -15,8 +15,10 @@ namespace {
 constexpr std::array<Stated<double*> Roles::*, 5> kMeasures{
     &Roles::period, &Roles::width, &Roles::depth, &Roles::wall_angle, &Roles::edge_radius};
 
-// Which keys of all kinds stand for a measure, and of which a zero means flat.
+// The numbers of all kinds, which of their keys stand for a measure, and of which a zero means
+// flat.
 struct Keys {
+  std::set<std::string> numbers;
   std::set<std::pair<std::string, Measure>> measures;
   std::set<std::string> relief;
 };
@@ -28,6 +30,7 @@ const Keys& keys() {
       Texture texture = default_texture(kind);
       const Roles role = roles(texture);
       for (const NumberField& field : number_fields(texture)) {
+        out.numbers.insert(field.path);
         if (field.value == role.relief) out.relief.insert(field.path);
         for (std::size_t m = 0; m < kMeasures.size(); ++m) {
           if (field.value == role.*kMeasures[m])
@@ -112,6 +115,8 @@ std::optional<Measure> measure_of(const std::string& path) {
   }
   return std::nullopt;
 }
+
+bool some_kind_has(const std::string& path) { return keys().numbers.contains(split(path).second); }
 
 bool decides_relief(const std::string& path) { return keys().relief.contains(split(path).second); }
 

@@ -30,6 +30,8 @@ enum class Measure { Period, Width, Depth, WallAngle, EdgeRadius };
 // What stands for the number at a path, texture.depth or texture.parts.1.height; none: another
 // number.
 std::optional<Measure> measure_of(const std::string& path);
+// Whether some kind of texture has a number of this path's key.
+bool some_kind_has(const std::string& path);
 // Whether some kind of texture is flat when the number at this path is 0.
 bool decides_relief(const std::string& path);
 

@@ -90,7 +90,7 @@ std::vector<std::string> unused_of(const Study& study) {
                   "study has; add another to environment.relative_humidity, or leave the spread "
                   "out");
   for (const std::string& path : study.fallen_away)
-    out.push_back(path + " of the base is left out: this kind of texture has no such number");
+    out.push_back(path + " is left out: this kind of texture has no such number");
   for (const Variable& v : study.variables) {
     const std::vector<std::string> setting = scenarios_setting(study, v.path);
     if (!setting.empty())

@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "config/writer.h"
+#include "design/families.h"
 #include "design/words.h"
 #include "scene/belief.h"
 #include "scene/uncertainty.h"
@@ -179,9 +180,7 @@ bool StudyFile::falls_away(const std::string& section, const std::string& path, 
   if (asked_for || !path.starts_with("texture.") || numbers.has(path) ||
       type == document.origins().end() || type->second.file == node.key_place.file)
     return false;
-  // The file itself knows the kind of its base: in it such a number is a mistake.
-  const bool kind_of_base = type->second.line > 0;
-  if (kind_of_base && node.key_place.file == study.file) return false;
+  if (!some_kind_has(path)) return false;  // written wrong, whichever kind it is of
   study.fallen_away.push_back(section + "." + path);
   if (Node* kept = study.study_sections.find(section)) erase_member(*kept, path);
   return true;

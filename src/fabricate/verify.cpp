@@ -94,18 +94,20 @@ std::vector<ExportedFile> strangers(const ExportRecord& record, const std::strin
 }
 
 // How many pixels the maps of a record can hold: a record is a text that anybody can write, and
-// memory is taken for as many as it asks for. Of layouts alone nobody knows.
+// memory is taken for as many as it asks for. Of layouts alone nobody knows, nor where the maps
+// were taken away from beside them.
 double pixels_held(const ExportRecord& record) {
   constexpr double kAlways = 1 << 24;
   double pixels = 0;
   bool maps = false;
   for (const ExportedFile& file : record.files) {
     if (file.format == kDesignFormat) continue;
-    const double per_byte = find_export_format(file.format).pixels_per_byte;
-    maps = maps || per_byte > 0;
     std::error_code missing;
     const auto size = std::filesystem::file_size(file.path, missing);
-    if (!missing) pixels = std::max(pixels, per_byte * static_cast<double>(size));
+    if (missing) continue;
+    const double per_byte = find_export_format(file.format).pixels_per_byte;
+    maps = maps || per_byte > 0;
+    pixels = std::max(pixels, per_byte * static_cast<double>(size));
   }
   return maps ? std::clamp(pixels, kAlways, kMostPixels) : kMostPixels;
 }

@@ -22,7 +22,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kSessionFile = "session.json";
 constexpr std::size_t kMostSteps = 200, kMostPins = 8;
-constexpr std::size_t kMostOthers = 20;  // files whose drafts are kept, and wishes
+constexpr std::size_t kMostOthers = 20;  // files whose drafts are kept
+constexpr std::size_t kMostWishes = 20;
 
 Json draft_json(const Draft& draft) {
   Json changes = Json::array();
@@ -402,7 +403,7 @@ void Session::put_wish(std::string wish) {
   std::erase_if(wishes_,
                 [&](const KeptWish& w) { return w.file == draft_.file && w.kind == kind(); });
   wishes_.push_back({draft_.file, kind(), std::move(wish)});
-  if (wishes_.size() > kMostOthers) wishes_.erase(wishes_.begin());
+  while (wishes_.size() > kMostWishes) wishes_.erase(wishes_.begin());
 }
 
 void Session::set_wish(std::string wish) {

@@ -31,13 +31,14 @@ const std::string kOpeningFile = std::string(kStudioFolder) + "/open.html";
 std::string opened_file(const std::string& given) {
   if (given.empty()) return find_design("electroadhesive_glass/study.toml");
   const fs::path path = fs::weakly_canonical(own_or_shipped(given));
-  if (!fs::is_directory(path)) {
-    // What cannot be opened leaves no folder behind.
-    read_study(path.string(), {}, DesignUse::Drawn);
-    return path.string();
-  }
+  // What cannot be opened leaves no folder behind.
+  const auto sound = [](const fs::path& file) {
+    read_study(file.string(), {}, DesignUse::Drawn);
+    return file.string();
+  };
+  if (!fs::is_directory(path)) return sound(path);
   for (const char* name : {"best/design.toml", "design.toml", "study.toml"}) {
-    if (fs::exists(path / name)) return (path / name).string();
+    if (fs::exists(path / name)) return sound(path / name);
   }
   throw InputError(
       {Problem{given, 0, 0, "", "neither a folder of results (best/design.toml) nor a design"}});

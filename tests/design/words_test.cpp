@@ -124,8 +124,8 @@ TEST(Base, VariablesOfAnotherKindFallAwayWithIt) {
   EXPECT_TRUE(again.fallen_away.empty());
 }
 
-// Of a base the file itself knows the kind: a key that is written wrong is no variable of another.
-TEST(Base, AVariableThatIsWrittenWrongIsRefusedWhereTheBaseHasTheKind) {
+// What no kind of texture has is no variable of another kind, wherever the kind is said.
+TEST(Base, AVariableThatIsWrittenWrongIsRefused) {
   const std::string text =
       "base = \"m3_samples/a3h350.toml\"\n[objective]\nminimise = \"mean(friction)\"\n"
       "[design_space]\n\"texture.dept\" = [\"200 nm\", \"500 nm\"]\n";
@@ -133,6 +133,17 @@ TEST(Base, AVariableThatIsWrittenWrongIsRefusedWhereTheBaseHasTheKind) {
                                 "`texture.depth`?"),
             std::string::npos)
       << mistakes(text);
+  const std::string own = "schema_version = 1\n" + text;
+  EXPECT_NE(refusal_of([&] {
+              parse_study(own, "own.toml", {"texture.type=waves"});
+            }).find("`texture.dept` is no number of this design"),
+            std::string::npos);
+  // One of another kind goes where the caller names a base of another kind.
+  std::string right = own;
+  right.replace(right.find("texture.dept"), 12, "texture.depth");
+  const Study rough = parse_study(right + "\"surface.contact_angle\" = [\"40 deg\", \"80 deg\"]\n",
+                                  "own.toml", {"base=m3_samples/screen_rough.toml"});
+  EXPECT_EQ(rough.fallen_away, std::vector<std::string>{"design_space.texture.depth"});
 }
 
 // In one file it is a mistake.

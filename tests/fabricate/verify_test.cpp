@@ -89,6 +89,12 @@ TEST(Verify, DrawsNoMorePixelsThanTheMapsOfItsRecordHold) {
   const std::string layout = (place.path() / "layout").string();
   export_with_record(study, options, layout);
   EXPECT_EQ(verify_folder(layout, "").at(0).state, FileState::Sound);
+  // Nor where the maps beside it were taken away.
+  const std::string kept = layout + "/export.json";
+  json = nlohmann::ordered_json::parse(read_bytes(kept));
+  json["made_from"]["files"].push_back({{"format", "exr"}, {"file", "heightmap.exr"}});
+  write_bytes(kept, json.dump());
+  EXPECT_EQ(verify_folder(layout, "texture.gds").at(0).state, FileState::Sound);
 }
 
 // A row of hexagons off its place is seen in a layout whose polygons are all right.

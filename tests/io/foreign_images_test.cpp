@@ -274,8 +274,6 @@ TEST(ForeignImages, TheChannelOfHeightsIsTakenByItsName) {
   }
 }
 
-// Whole numbers say nothing of heights by themselves; by their description they do, black and white
-// at their own heights, whichever is higher.
 // Eight of its pixels are a byte before it is packed.
 TEST(ForeignImages, ABlackMaskOfOneBitIsNotTakenForOneThatIsCutOff) {
   constexpr int kWide = 4096, kHigh = 2048;
@@ -290,6 +288,8 @@ TEST(ForeignImages, ABlackMaskOfOneBitIsNotTakenForOneThatIsCutOff) {
             std::string::npos);
 }
 
+// Whole numbers say nothing of heights by themselves; by their description they do, black and white
+// at their own heights, whichever is higher.
 TEST(ForeignImages, GreyHasTheHeightsOfItsDescription) {
   std::vector<std::uint16_t> grey;
   for (int i = 0; i < kNx * kNy; ++i) grey.push_back(static_cast<std::uint16_t>(35 * i));

@@ -169,7 +169,9 @@ TEST_F(Server, SharesNeitherItsFolderNorItsPort) {
 TEST_F(Server, LeavesNothingOfAFileThatItCannotOpen) {
   const TemporaryFolder other;
   write_bytes(other.path() / "wrong.toml", "schema_version = 1\ntexture = 3\n");
-  for (const char* file : {"none.toml", "wrong.toml"}) {
+  std::filesystem::create_directory(other.path() / "results");
+  write_bytes(other.path() / "results/design.toml", "schema_version = 1\ntexture = 3\n");
+  for (const char* file : {"none.toml", "wrong.toml", "results"}) {
     for (const std::string& folder : {std::string(), (other.path() / "new").string()}) {
       const int code = std::system(
           ("timeout 20 '" PAPILLA_PROGRAM "' studio --no-open '" + (other.path() / file).string() +
@@ -178,8 +180,8 @@ TEST_F(Server, LeavesNothingOfAFileThatItCannotOpen) {
       EXPECT_EQ(WEXITSTATUS(code), 2) << file;
     }
   }
-  EXPECT_FALSE(std::filesystem::exists(other.path() / ".studio"));
-  EXPECT_FALSE(std::filesystem::exists(other.path() / "new"));
+  for (const char* made : {".studio", "new", "results/.studio"})
+    EXPECT_FALSE(std::filesystem::exists(other.path() / made)) << made;
 }
 
 // A link in the folder leads nowhere, and a name that is no UTF-8 does not end the page.

@@ -399,6 +399,23 @@ TEST(Session, KeepsTheWishOfItsFileAndKind) {
   EXPECT_EQ(again.wish(), R"({"evaluations":5})");
 }
 
+TEST(Session, KeepsTwentyWishesTheNewest) {
+  const TemporaryFolder place;
+  { Session session(place.path(), kHoles); }
+  nlohmann::json kept = kept_in(place);
+  for (int i = 0; i < 30; ++i) {
+    kept["wishes"].push_back(
+        {{"file", std::to_string(i) + ".toml"}, {"kind", "waves"}, {"text", "{}"}});
+  }
+  write_bytes(place.path() / ".studio/session.json", kept.dump());
+  Session session(place.path(), kHoles);
+  session.set_wish("{}");
+  kept = kept_in(place);
+  ASSERT_EQ(kept["wishes"].size(), 20u);
+  EXPECT_EQ(kept["wishes"][0]["file"], "11.toml");
+  EXPECT_EQ(kept["wishes"][19]["file"], kHoles);
+}
+
 // So a design of another kind, picked from the front, is steered within the same limits.
 TEST(Session, TakesWhatIsWantedAlongToAnotherKind) {
   const TemporaryFolder place;

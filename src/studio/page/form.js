@@ -198,8 +198,8 @@ export function showSlopes({ slopes }) {
   const of = new Map(slopes.map((s) => [s.path, s]));
   Object.values(rows).forEach((row) => {
     const s = $('slopes').checked && of.get(row.key.path);
-    row.slope.hidden = !s;
-    if (!s) return;
+    row.slope.hidden = !s || !s.changes.length;
+    if (row.slope.hidden) return;
     const unit = people(s.unit), told = s.changes.map((c) => {
       const scale = c.metric === 'mean(friction)' ? 1e3 : 1, after = scale === 1e3 ? ' mN' : '';
       return c.value === null ? '' : `${effects[c.metric]} ${signed(c.value, scale)} ± ${round(scale * (c.error || 0), 2)}${after}`;
