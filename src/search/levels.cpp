@@ -121,9 +121,10 @@ double pen_seconds(const StudyProblem& problem, const Fidelity& fidelity) {
 }
 
 // What a plan does not know: each target of voltage_for is found by driving the same patches four
-// to six times at every humidity. By the load law these are fields alone: the surface of
-// designs/electroadhesive_glass at level draft 0.87 of an evaluation, 2.1 of one that solves no 3-D
-// field beside them, as in a search; with solved areas contacts too (level design: 2.3).
+// to six times at every humidity. By the load law these are fields alone: 0.87 of an evaluation at
+// level draft (the surface of designs/electroadhesive_glass), 2.1 to 2.3 of one that solves no 3-D
+// field, as in a search (holes, FieldStudy.ThePriceOfAnEvaluationKnowsItsVoltages); with solved
+// areas contacts too (level design: 2.3).
 constexpr double kVoltageByLoads = 0.9, kVoltageByRuleAlone = 2.1, kVoltageByAreas = 2.3;
 // The branch to pull-in, over an evaluation: a few patches in many states.
 constexpr double kPullIn = 1;
